@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The codec's public interface. It builds, opens, refines and exports progressive meshes.
 //
-//   read_mesh    reads bytes of a PLY, OBJ, STL, OFF, GLB or glTF file; returns an ImportedMesh
+//   read_mesh    reads bytes of a PLY, OBJ, STL, OFF, 3MF, GLB or glTF file, or a zip, tar or gzip
+//                of a package with one; returns an ImportedMesh
 //   build_model  takes bytes of a mesh file, or an ImportedMesh; returns a `.pmesh` and a report
 //   open_model   takes bytes of a `.pmesh`, or a prefix of them; returns a Refiner at the base mesh
 //   refine       refines a Refiner to a given Want: triangles, bytes, error, level, view
 //   Planner      chooses the next chunk to fetch, if chunks arrive one by one (Refiner::apply)
 //   write_mesh   takes a TriangleMesh; returns bytes of a PLY, GLB, OBJ, STL, DRC or VRML file
+//                (write_textured_mesh: also takes a Texturing; returns the file and its pictures)
 //
 // verify_model proves that a `.pmesh` is intact and, if the original is given, that it is lossless.
 // compare_appearance tells how alike two meshes look: PSNR and SSIM of pictures from twelve sides.
@@ -15,9 +17,9 @@
 // Coordinates and errors are doubles in the model's unit (Manifest::unit). Functions that can fail
 // return Expected<T>. The message of its Error is one line: the fault, its place, the next step.
 //
-// Refiner, Planner and parse_header are safe on any bytes. The functions that read, build and
-// verify call third-party decoders (Draco, PNG, JPEG, WebP), which are not safe on hostile bytes.
-// Call them in a process without rights if the bytes are untrusted.
+// Refiner, Planner, open_model and parse_header are safe on any bytes. The functions that read,
+// build and verify call third-party decoders (Draco, PNG, JPEG, WebP, libarchive), which are not
+// safe on hostile bytes. Call them in a process without rights if the bytes are untrusted.
 //
 // There is no global state. Different objects may be used from different threads at the same time,
 // but each object from only one thread at a time. build_model starts BuildOptions::threads threads;
@@ -29,6 +31,7 @@
 #include "codec/appearance/appearance.h"
 #include "codec/build/build_model.h"
 #include "codec/build/open_model.h"
+#include "codec/build/originals.h"
 #include "codec/build/refine.h"
 #include "codec/build/verify_model.h"
 #include "codec/export/write_mesh.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests a public scan of the object on a scanner's table, and writes the scan's ID to the file KNOWN.
-// Requests no scan if KNOWN already names one that has not failed and was not cancelled.
-// Usage: node order-scan.mjs VITRINE DATA URL SCANNER STEPS TITLE KNOWN
+// Requests a public scan of the object on a scanner's table, and writes the scan's ID to the file
+// KNOWN. Keeps the scan that KNOWN already names, unless that scan failed or was cancelled. Usage:
+// node order-scan.mjs VITRINE DATA URL SCANNER STEPS TITLE KNOWN
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 
@@ -14,7 +14,7 @@ async function isThere() {
   return answer.ok && !["failed", "cancelled"].includes((await answer.json()).state);
 }
 
-/** Calls `use` with a new operator's token, and revokes the token afterwards. */
+/** Calls `use` with a new token of the role operator, and revokes the token afterwards. */
 async function withToken(use) {
   const token = (...words) => JSON.parse(execFileSync(vitrine, ["token", ...words, "--data", data, "--json"]));
   const { id, token: secret } = token("create", "--role", "operator", "--label", "demo");

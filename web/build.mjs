@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds dist/ from src/: node build.mjs progressive-mesh.wasm
+// dist/ has the files that the daemon serves, dist/package those of the npm package.
 import { build } from "esbuild";
 import { copyFile, mkdir, rm } from "node:fs/promises";
-import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { leanThree } from "./lean_three.mjs";
 import { meshFormats } from "./mesh_formats.mjs";
 
 const root = dirname(fileURLToPath(import.meta.url));
 const dist = join(root, "dist");
+const published = join(dist, "package"); // the files of the npm package; the other files are the daemon's
 const wasm = process.argv[2];
 if (!wasm) throw new Error("name the decoder: node build.mjs progressive-mesh.wasm");
 
 const common = { bundle: true, minify: true, target: "es2022", legalComments: "none", absWorkingDir: root, logLevel: "warning" };
 
-/** Handles `import text from "./x?text"`. The import is a string: the style sheet or worker x, bundled and minified. */
+/**
+ * Handles `import text from "./x?text"`. The imported string is the style sheet or worker x,
+ * bundled and minified.
+ */
 const asText = {
   name: "text",
   setup({ onResolve, onLoad }) {
@@ -29,11 +34,19 @@ const asText = {
   },
 };
 
-/** Keeps three.js in a separate file beside the viewer. */
+/** Keeps three.js in a file of its own, beside the viewer's file. */
 const threeBeside = {
   name: "three",
   setup({ onResolve }) {
     onResolve({ filter: /^three(\/.*)?$/ }, () => ({ path: "./three.js", external: true }));
+  },
+};
+
+/** Takes the worker of the npm package from a file of its own. */
+const workerBeside = {
+  name: "worker",
+  setup({ onResolve }) {
+    onResolve({ filter: /\/worker-url\.ts$/ }, () => ({ path: join(root, "src/core/worker-url-of-package.ts") }));
   },
 };
 
@@ -49,7 +62,7 @@ await Promise.all([
     splitting: true,
     plugins: [asText, threeBeside],
   }),
-  build({ ...common, entryPoints: { three: "src/element/three-parts.ts" }, outdir: dist, format: "esm" }),
+  build({ ...common, entryPoints: { three: "src/element/three-parts.ts" }, outdir: dist, format: "esm", plugins: [leanThree] }),
   build({
     ...common,
     entryPoints: { "progressive-mesh-loader": "src/three/index.ts" },
@@ -60,7 +73,7 @@ await Promise.all([
   }),
   build({
     ...common,
-    entryPoints: { gallery: "src/gallery/gallery.ts", model: "src/gallery/model.ts", docs: "src/docs/docs.ts" },
+    entryPoints: { gallery: "src/gallery/gallery.ts", model: "src/gallery/model.ts", compare: "src/gallery/compare.ts", docs: "src/docs/docs.ts" },
     outdir: dist,
     format: "esm",
   }),
@@ -75,15 +88,23 @@ await Promise.all([
     plugins: [threeBeside],
     define: { MESH_FORMATS: JSON.stringify(meshFormats) },
   }),
+  build({
+    ...common,
+    entryPoints: { "progressive-mesh": "src/element/index.ts", "progressive-mesh-loader": "src/three/index.ts" },
+    chunkNames: "progressive-mesh-[name]-[hash]",
+    outdir: published,
+    format: "esm",
+    splitting: true,
+    external: ["three", "three/*"],
+    plugins: [asText, workerBeside],
+  }),
+  build({ ...common, entryPoints: { "progressive-mesh-worker": "src/core/worker.ts" }, outdir: published, format: "iife" }),
   build({ ...common, entryPoints: { site: "src/gallery/site.css", console: "src/console/console.css" }, outdir: dist }),
 ]);
 
-const draco = dirname(createRequire(import.meta.url).resolve("draco3d"));
 await Promise.all([
-  copyFile(wasm, join(dist, "progressive-mesh.wasm")),
-  copyFile(join(draco, "draco_decoder_nodejs.js"), join(dist, "draco_decoder.js")),
-  copyFile(join(draco, "draco_decoder.wasm"), join(dist, "draco_decoder.wasm")),
-  ...["index.html", "model.html", "scan.html"].map((page) => copyFile(join(root, "src/gallery", page), join(dist, page))),
+  ...[dist, published].map((folder) => copyFile(wasm, join(folder, "progressive-mesh.wasm"))),
+  ...["favicon.svg", "index.html", "model.html", "compare.html", "scan.html"].map((page) => copyFile(join(root, "src/gallery", page), join(dist, page))),
   copyFile(join(root, "src/docs/docs.html"), join(dist, "docs.html")),
   copyFile(join(root, "src/console/console.html"), join(dist, "console.html")),
 ]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the table of the mesh formats that the server can import. The table is in a C++ source.
+// Reads the table of the mesh formats that the server can import. The table is in a C++ source
+// file.
 import { readFile } from "node:fs/promises";
 
 const table = await readFile(new URL("../codec/import/formats.h", import.meta.url), "utf8");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The web client's tests are in tests/web.
+// Configures Vitest. The web client's tests are in tests/web.
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vitest/config";
 import { meshFormats } from "./mesh_formats.mjs";

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refines the calibration by the Levenberg-Marquardt method, over all pictures at once. A picture
-// depends only on the camera, the axis, its placement and its slip (the error of the table's
-// angle). So the normal equations are summed picture by picture.
+// Refines the calibration by the Levenberg-Marquardt method, over all pictures at once. The
+// residuals of a picture depend only on the camera, the axis, and the placement and slip of that
+// picture. (The slip is the error of the table's angle.) So the normal equations are summed picture
+// by picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,10 +19,10 @@ namespace {
 constexpr double kCornerNoise = 0.05;
 // Standard deviation of the error of the table's angle, in radians, with a stepper motor.
 constexpr double kSlipNoise = 0.05 * std::numbers::pi / 180;
-// Beyond this many standard deviations, Huber's loss grows linearly.
+// Residuals beyond this many standard deviations count linearly instead of squared (Huber's loss).
 constexpr double kRobust = 4;
 
-// The unknowns on which one picture depends.
+// The unknowns that determine one picture.
 struct PictureUnknowns {
   CameraModel camera;
   CameraFrameAxis axis;
@@ -29,7 +30,8 @@ struct PictureUnknowns {
   double slip = 0;
 };
 constexpr int kCamera = 8, kPose = 6, kAxis = 4;
-// Number of a picture's unknowns that Adjust::kPlacements adjusts.
+// kFree: number of a picture's unknowns that Adjust::kPlacements adjusts, the camera and the
+// placement. kPart: number of all its unknowns.
 constexpr int kFree = kCamera + kPose;
 constexpr int kPart = kFree + kAxis + 1;
 using Deltas = cv::Vec<double, kPart>;
@@ -39,7 +41,7 @@ constexpr std::array<double, kPart> kSteps = {
     0.1, 0.1, 0.1, 0.1, 1e-4, 1e-3, 1e-5, 1e-5,
     // Placement: rotation, translation.
     1e-5, 1e-5, 1e-5, 1e-3, 1e-3, 1e-3,
-    // Axis: direction, point. Then the slip.
+    // Axis (direction, then point), then slip.
     1e-5, 1e-5, 1e-2, 1e-2, 1e-5};
 
 cv::Vec3d across(const cv::Vec3d& direction) {
@@ -58,7 +60,8 @@ CameraModel moved(const CameraModel& from, const Deltas& by) {
   return camera;
 }
 
-// A line has four degrees of freedom: two for its direction and two for a point on it.
+// Returns the axis changed by four unknowns: two change its direction, two shift its point. A line
+// in space has four degrees of freedom.
 CameraFrameAxis moved(const CameraFrameAxis& from, const Deltas& by) {
   const cv::Vec3d first = across(from.direction), second = from.direction.cross(first);
   return {cv::normalize(from.direction + by[14] * first + by[15] * second),
@@ -84,7 +87,8 @@ std::vector<cv::Point2d> project(const PictureUnknowns& part, const SeenTarget& 
   return image;
 }
 
-// Returns the residuals in standard deviations: two for each corner, then one for the slip.
+// Returns the residuals, each divided by its standard deviation: two for each corner, then one for
+// the slip.
 cv::Mat_<double> errors(const PictureUnknowns& part, const SeenTarget& seen) {
   const std::vector<cv::Point2d> image = project(part, seen);
   cv::Mat_<double> all(static_cast<int>(2 * image.size() + 1), 1);
@@ -149,7 +153,8 @@ class Problem {
     return {scene.camera, scene.axis, scene.placements[seen_[i].placement], scene.slips[i]};
   }
 
-  // Returns the indices, among all unknowns, of the unknowns on which picture `i` depends.
+  // Returns the indices of the unknowns that determine picture `i`, among the unknowns of the whole
+  // scene.
   std::array<int, kPart> places(const CalibrationScene& scene, std::size_t i) const {
     std::array<int, kPart> at{};
     const int poses = kCamera + kAxis;
@@ -185,8 +190,7 @@ class Problem {
   }
 
   std::span<const SeenTarget> seen_;
-  // Number of leading unknowns of a picture that are adjusted. The equations of the others stay
-  // empty.
+  // Number of unknowns that are adjusted for each picture. The equations of the others stay zero.
   int free_;
 };
 

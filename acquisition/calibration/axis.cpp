@@ -5,9 +5,9 @@
 
 namespace vitrine::acquisition {
 
-// In the coordinates (x, y, normal), the axis runs along (b, 1, tilt) through (a, 0, offset). The
-// rho direction is (1, -b, 0), which is perpendicular to the axis. The lateral direction is the
-// cross product of the two.
+// Returns `p` in the axis's frame. In the coordinates (x, y, normal), the axis has the direction
+// (b, 1, tilt) and contains (a, 0, offset). The rho direction is (1, -b, 0), perpendicular to the
+// axis. The lateral direction is the cross product of rho and the axis.
 TablePoint about(const TurntableAxis& axis, const PlanePoint& p) {
   const double dx = p.x - axis.a, dw = -axis.offset;
   const double in_plane = 1 + axis.b * axis.b, along = in_plane + axis.tilt * axis.tilt;

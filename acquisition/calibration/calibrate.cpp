@@ -64,8 +64,8 @@ std::vector<SeenTarget> seen_targets(const CalibrationInput& input) {
   return all;
 }
 
-// Returns the points of the laser's line on the target: the viewing rays intersected with the
-// target's plane. Points outside the target's outline are left out.
+// Returns the laser's line on the target in 3D, by intersecting the viewing rays with the target's
+// plane. Points outside the target's outline are left out.
 std::vector<LaserPoint> on_target(const CalibrationInput& input, const CalibrationScene& scene,
                                   std::span<const SeenTarget> seen) {
   const CharucoTarget& t = input.target;
@@ -103,8 +103,8 @@ std::vector<Point> kept(std::span<const Point> points, const std::vector<bool>& 
   return rest;
 }
 
-// Fits the light plane and the plane map to the poses that are not left out, and predicts the
-// points of the left-out poses.
+// Fits the light plane and the plane map to the poses that are not left out. Predicts the points of
+// the left-out poses.
 Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint> stripe,
                                                      const CameraModel& camera,
                                                      const SheetArea& area,
@@ -131,8 +131,8 @@ Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint>
   return judged;
 }
 
-// Predicts the points of the left-out poses as above, but from points with known coordinates in the
-// laser plane.
+// Predicts the left-out points like the function above, but from known coordinates in the laser
+// plane. Fits no light plane.
 Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const Correspondence> points,
                                                      const SensorRegion& region,
                                                      const std::vector<bool>& left_out,
@@ -169,8 +169,8 @@ Coverage coverage_of(const PlaneMap& map, std::span<const Correspondence> points
           .y_high = y_high};
 }
 
-// Builds the result from the cross-validation. For each degree, adds the condition number of the
-// fit to all points.
+// Returns the calibration with its report. Adds the condition number of the fit to all points for
+// each degree.
 Expected<Calibrated> assemble(CrossValidation validation, std::span<const Correspondence> points,
                               const std::string& camera, const SensorRegion& region) {
   Calibrated result;
@@ -250,7 +250,8 @@ Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Tur
     const int next = static_cast<int>(numbers.size());
     p.pose = numbers.try_emplace(p.pose, next).first->second;
   }
-  constexpr std::size_t kLeastPoses = 3;  // each pose is judged by a map fitted to the others
+  // Each pose is judged by a map that is fitted to the other poses.
+  constexpr std::size_t kLeastPoses = 3;
   if (numbers.size() < kLeastPoses) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("the points have {} different pose numbers, a calibration needs at "

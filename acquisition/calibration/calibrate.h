@@ -11,15 +11,15 @@
 
 namespace vitrine::acquisition {
 
-// One position of the table: the corners seen in the picture without laser, and the points of the
-// laser's line seen in the picture with laser.
+// Two pictures with the table at one angle: the corners come from the picture without laser, the
+// laser's line from the picture with laser.
 struct TargetPicture {
-  // Pictures with the same placement differ only by the table's angle: the target was not touched
-  // between them.
+  // Number of the placement. The target was not touched between pictures of one placement; only the
+  // table turned.
   int placement = 0;
   double angle = 0;  // the table's angle in degrees, as reported by the motor board
   TargetView view;
-  // The laser's line, with points on and beside the target. Empty if no line is seen.
+  // Points of the laser's line, on the target and beside it. Empty if no line was found.
   std::vector<ImagePoint> stripe;
 };
 
@@ -31,16 +31,17 @@ struct CalibrationInput {
 };
 
 struct CalibrationOptions {
-  // Degree of the plane map, 2 to 5. 0 chooses the lowest degree that does well on held-out poses.
+  // Degree of the plane map, 2 to 5. 0 chooses the lowest degree whose error on held-out poses is
+  // close to the best.
   int degree = 0;
-  // The map extends this many pixels beyond the points at which the stripe was seen.
+  // Margin, in pixels, by which the map extends beyond the points of the stripe.
   double margin = 20;
 };
 
-// Computes the calibration of a camera that stands upright. The axis requires at least one
-// placement that is seen at several angles of the table. For the map, the stripe on the target
-// should cover the space that objects will fill. Fails with kBadInput if the pictures do not
-// determine the calibration or contradict each other.
+// Computes the calibration of a camera that stands upright. To find the axis, at least one
+// placement must be seen at several angles of the table. The stripe on the target should cover the
+// space in which objects will be scanned. Fails with kBadInput if the pictures do not determine the
+// calibration or contradict each other.
 Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationOptions& options);
 
 // Computes a calibration without pictures, from a known axis and points with known coordinates in

@@ -12,7 +12,7 @@
 
 namespace vitrine::acquisition {
 
-struct ResidualSummary {  // mm, measured on held-out poses
+struct ResidualSummary {  // residuals in mm, over poses left out of the fit
   double rms = 0, p95 = 0, max = 0;
 };
 

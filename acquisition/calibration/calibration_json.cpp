@@ -18,8 +18,8 @@ constexpr int kFormat = 1;
 constexpr double kMostMm = 1e5, kMostPixels = 1e5;
 constexpr std::size_t kMostText = 256, kMostCorners = 4096;
 
-// Reads the members of one JSON object and keeps the first fault. Values returned after a fault are
-// meaningless.
+// Reads the members of one JSON object and keeps the first error. Values returned after an error
+// are meaningless.
 class Reader {
  public:
   Reader(const Json& object, std::string& fault) : object_(object), fault_(fault) {}
@@ -80,7 +80,7 @@ class Reader {
     return {value == nullptr ? nothing : *value, fault_};
   }
 
-  // Reports a fault if the object has a key that is not in `known`.
+  // Reports an error if the object has a key that is not in `known`.
   void only(std::initializer_list<std::string_view> known) {
     for (const auto& [key, value] : object_.items()) {
       if (fault_.empty() && std::ranges::find(known, key) == known.end())
@@ -133,8 +133,8 @@ SensorRegion read_region(Reader in) {
           .height = in.integer("height", 1, kMost)};
 }
 
-// Returns whether the polygon turns left at each corner. Corners that are straight within single
-// precision are allowed.
+// Returns whether the polygon turns left at each corner. Also allows corners that are straight
+// within single precision.
 bool is_convex(std::span<const double> hull) {
   const std::size_t n = hull.size();
   for (std::size_t i = 0; i < n; i += 2) {

@@ -23,7 +23,7 @@ std::string text_of(const SensorRegion& r) {
   return fmt::format("{}x{}+{}+{}", r.width, r.height, r.x, r.y);
 }
 
-// Returns the calibration's number, or 0 if the file name is not that of a calibration.
+// Returns the calibration's number, or 0 if `path` is not the name of a calibration file.
 int number_of(const fs::path& path) {
   const std::string stem = path.stem().string();
   int number = 0;

@@ -15,9 +15,9 @@ class CalibrationStore {
  public:
   explicit CalibrationStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Writes the calibration under the next number, creating the folder if needed, and returns it
-  // with that number. Concurrent writers get different numbers. Fails with kIo, or with kBadInput
-  // if the result could not be read back.
+  // Writes the calibration under the next free number and returns it with that number. Creates the
+  // folder if needed. Concurrent writers get different numbers. Fails with kIo, or with kBadInput
+  // if the written file could not be read back.
   Expected<Calibration> add(Calibration calibration) const;
 
   // Reads a stored calibration. Fails with kIo if no calibration has that number, and with
@@ -28,7 +28,8 @@ class CalibrationStore {
   Expected<std::vector<int>> numbers() const;
 
   // Returns the newest undamaged calibration of that camera and region. If there is none, fails
-  // with kBadInput, naming a damaged file, or with kState, saying whether camera or region differs.
+  // with kBadInput if a file is damaged, and names the file. Otherwise fails with kState and says
+  // whether camera or region differs.
   Expected<Calibration> for_camera(const std::string& serial, const SensorRegion& region) const;
 
  private:

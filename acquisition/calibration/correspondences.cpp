@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kHeader = "u,v,x,y,pose";
 constexpr std::size_t kMostPoints = 1'000'000;
 
-// Returns the part of `rest` before `end`, and removes that part and `end` from `rest`.
+// Returns the text in `rest` before the first `end`. Removes that text and `end` from `rest`.
 std::string_view take(std::string_view& rest, char end) {
   const std::size_t at = rest.find(end);
   const std::string_view taken = rest.substr(0, at);

@@ -32,8 +32,8 @@ Expected<std::vector<HeldOutPoint>> judge(int poses, int degree, const LeaveOut&
   return points;
 }
 
-// Returns the root mean square of the residuals without outliers. Outliers are falsely detected
-// corners or stripes, which say nothing about the degree.
+// Returns the root mean square of the residuals without outliers. Outliers are wrongly detected
+// corners or stripes. They do not show which degree fits best.
 double without_strays(std::span<const HeldOutPoint> points) {
   constexpr double kFar = 4;  // residuals beyond this multiple of the median are outliers
   std::vector<double> sizes;

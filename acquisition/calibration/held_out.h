@@ -9,13 +9,13 @@
 
 namespace vitrine::acquisition {
 
-// Fits a map of that degree to the poses that are not left out, and returns the residuals of the
-// left-out poses.
+// A function that fits a map of a given degree without the left-out poses, and returns the
+// residuals of these poses.
 using LeaveOut = std::function<Expected<std::vector<HeldOutPoint>>(
     const std::vector<bool>& left_out, int degree)>;
 
 struct CrossValidation {
-  // All degrees that could be fitted. Condition numbers are not filled in.
+  // The results of all degrees that could be fitted. Their condition numbers are not set.
   std::vector<DegreeResult> degrees;
   int degree = 0;                    // the chosen degree
   std::vector<HeldOutPoint> points;  // residuals at the chosen degree

@@ -11,8 +11,8 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;
-// Points whose standard deviation perpendicular to their longest extent is smaller than this, in
-// mm, lie nearly on a line and do not determine a plane.
+// Points that spread less than this across their longest extent lie nearly on a line and do not
+// determine a plane. Standard deviation in mm.
 constexpr double kLeastSpread = 2;
 constexpr double kLeastInlier = 0.02;  // mm: a point this close always counts as an inlier
 
@@ -33,8 +33,8 @@ double median_distance(std::span<const LaserPoint> points, const PlaneEstimate& 
   return *middle;
 }
 
-// Finds a first plane through three points by least median of squares. A fixed seed makes the
-// result repeatable.
+// Returns a first estimate of the plane, by least median of squares over planes through three
+// points. A fixed seed makes the result repeatable.
 PlaneEstimate first_plane(std::span<const LaserPoint> points) {
   constexpr int kTrials = 200;
   constexpr std::size_t kJudges = 2000;
@@ -58,7 +58,7 @@ PlaneEstimate first_plane(std::span<const LaserPoint> points) {
   return best;
 }
 
-// Fits a plane by least squares to the points near `around`.
+// Fits a plane by least squares to the points near the plane `around`.
 PlaneEstimate refined(std::span<const LaserPoint> points, const PlaneEstimate& around) {
   const double reach = std::max(3 * 1.4826 * median_distance(points, around), kLeastInlier);
   cv::Vec3d sum;

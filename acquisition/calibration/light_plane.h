@@ -21,7 +21,8 @@ struct LaserPoint {  // a point of the laser's line on the target
 struct LightPlane {
   cv::Vec3d origin, x, y, normal;
 
-  // Returns x, y and the distance from the plane, in mm.
+  // Returns a point's coordinates in the plane's frame: x, y, and the distance from the plane, in
+  // mm.
   cv::Vec3d within(const cv::Vec3d& at) const;
   TurntableAxis axis(const CameraFrameAxis& table) const;
 };

@@ -11,8 +11,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Largest accepted condition number: above this, noise of 0.001 pixel would move the map by more
-// than a pixel.
+// Largest accepted condition number. Above it, noise of 0.001 pixel would move the map by more than
+// a pixel.
 constexpr double kWorstCondition = 1e4;
 // Tolerance in pixels, needed because the hull is computed in single precision.
 constexpr double kHullSlack = 1e-3;
@@ -21,8 +21,8 @@ int terms_of(int degree) {
   return (degree + 1) * (degree + 2) / 2;
 }
 
-// Writes to `row` the powers of u and v by which the coefficients are multiplied, in the order of
-// the coefficients (PlaneMap::terms_).
+// Writes to `row` the products of powers of u and v that belong to the coefficients, in the order
+// of PlaneMap::terms_.
 void write_powers(double u, double v, int degree, double* row) {
   for (int j = degree; j >= 0; --j) {
     for (int i = degree - j; i >= 0; --i)
@@ -131,7 +131,8 @@ bool PlaneMap::is_inside(double u, double v) const {
   return true;
 }
 
-// Uses Horner's scheme twice: in u for the factor of each power of v, then in v.
+// Evaluates the polynomials by Horner's scheme. The inner loop runs over powers of u, the outer
+// loop over powers of v.
 PlanePoint PlaneMap::evaluate(double u, double v) const {
   PlanePoint sum;
   const Terms* term = terms_.data();

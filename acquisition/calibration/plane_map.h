@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps image points to the laser plane by one polynomial for each coordinate. The polynomials cover
-// both projection and lens distortion. Source: [WLL] eq. 1, image to world plane.
+// Maps image points to the laser plane by one polynomial for each coordinate. The polynomials
+// include the lens distortion. Source: [WLL] eq. 1, image to world plane.
 #pragma once
 
 #include <optional>
@@ -33,11 +33,12 @@ class PlaneMap {
   static Expected<PlaneMap> fit(std::span<const Correspondence> points, int degree, int width,
                                 int height);
 
-  // Maps a pixel; returns nullopt outside the convex hull of the fitted points.
+  // Maps a pixel to the laser plane. Returns nullopt outside the convex hull of the fitted points.
   std::optional<PlanePoint> at(double u, double v) const;
 
   int degree() const { return degree_; }
-  // The condition number of the normalised equations: the largest singular value over the smallest.
+  // Condition number of the normalised equations: the ratio of the largest to the smallest singular
+  // value.
   double condition() const { return condition_; }
   // The hull's corners (u, v), counter-clockwise in (u, v).
   std::span<const double> hull() const { return hull_; }

@@ -11,7 +11,7 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kMostArrows = 1500;
-// Length of the arrow for the 95th percentile of the residuals, in pixels.
+// Length, in pixels, of the arrow for a residual at the 95th percentile.
 constexpr double kArrow = 40;
 constexpr int kHueStep = 137;  // degrees of hue between consecutive poses
 

@@ -27,7 +27,7 @@ cv::Matx33d first_camera(std::span<const SeenTarget> seen, int width, int height
   }
   cv::Matx33d matrix = cv::initCameraMatrix2D(boards, images, {width, height});
   const double focal = matrix(0, 0);
-  if (!(focal > 0.3 * width && focal < 30 * width)) {  // happens if all views are frontal
+  if (!(focal > 0.3 * width && focal < 30 * width)) {  // implausible; all views may be frontal
     matrix(0, 0) = matrix(1, 1) = 2.5 * width;
   }
   return matrix;
@@ -54,8 +54,8 @@ Expected<void> check_misfit(const CalibrationScene& scene, std::span<const SeenT
   return {};
 }
 
-// Estimates the camera and a separate placement for each picture. Takes the table's angle as 0 in
-// all pictures, as cv::calibrateCamera does.
+// Estimates the camera and a separate placement for each picture, with the table's angle taken as 0
+// in all pictures. cv::calibrateCamera works the same way.
 Expected<CalibrationScene> without_axis(std::span<const SeenTarget> seen, int width, int height) {
   std::vector<SeenTarget> single(seen.begin(), seen.end());
   CalibrationScene scene;
@@ -102,7 +102,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Estimates the axis's direction from the rotation of each pair. The median tolerates wrong pairs.
+// Estimates the axis's direction from the rotation of each pair. Uses the median, so that a few
+// wrong pairs do no harm.
 cv::Vec3d direction_of(std::span<const Turned> turns) {
   cv::Vec3d direction;
   for (int c = 0; c < 3; ++c) {
@@ -116,7 +117,8 @@ cv::Vec3d direction_of(std::span<const Turned> turns) {
   return cv::normalize(direction);
 }
 
-// Returns the fixed point of all rotations that is nearest to the target.
+// Returns the point of the axis that is level with the target. All rotations leave this point in
+// place.
 cv::Vec3d fixed_point(std::span<const Turned> turns, const cv::Vec3d& direction) {
   const int rows = 3 * static_cast<int>(turns.size());
   cv::Mat_<double> a(rows + 1, 3), b(rows + 1, 1), point;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the camera, the table's axis and the target's placements from pictures of the target on
-// the turning table. Pictures of one placement differ only by a rotation about the table's axis,
-// which all pictures share.
+// the turning table. Pictures of one placement differ only by a rotation about the table's axis.
+// All pictures have the same axis.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -13,13 +13,13 @@
 
 namespace vitrine::acquisition {
 
-struct CameraModel {  // pinhole camera with OpenCV's distortion k1, k2, p1, p2; pixels
+struct CameraModel {  // pinhole camera, in pixels, with OpenCV's distortion k1, k2, p1, p2
   cv::Matx33d matrix = cv::Matx33d::eye();
   cv::Vec4d distortion;
 };
 
-// The table's axis in the camera's frame, in mm. The table turns about it right-handed as the angle
-// grows.
+// The table's axis in the camera's frame, in mm. The table turns about `direction` by the
+// right-hand rule as its angle grows.
 struct CameraFrameAxis {
   cv::Vec3d direction{0, 1, 0}, point;
 };
@@ -50,8 +50,8 @@ enum class Adjust {
   kAll,         // also adjusts axis and slips
 };
 
-// Adjusts the scene by least squares over the corners' positions in the image. The adjustment is
-// robust to single outliers. `scene` holds the start values, which must be roughly right.
+// Adjusts the scene by least squares over the corners' positions in the image. Single outliers have
+// little effect. `scene` must hold approximate values on entry.
 void adjust(CalibrationScene& scene, std::span<const SeenTarget> seen, Adjust what);
 
 // Returns the median distance, in pixels, between the corners seen in one picture and those that

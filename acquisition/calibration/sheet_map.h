@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the points to which the plane map is fitted. They are points of the light plane, predicted
-// from camera and plane, and evenly spaced over the part of the image in which the stripe was seen.
-// A fit to the stripe's own points would follow their noise in regions with few points.
+// Generates the points to which the plane map is fitted. The points are evenly spaced over the part
+// of the image in which the stripe was seen. Their positions in the light plane are computed from
+// camera and plane. A fit to the measured points would follow their noise in regions with few
+// points.
 #pragma once
 
 #include <span>

@@ -23,8 +23,8 @@ struct ImageLine {
   double distance(const cv::Point2f& p) const { return std::abs(across.dot(p - through)); }
 };
 
-// Returns the points that a camera without distortion would see, in pixels from the principal
-// point.
+// Returns the points as a camera without lens distortion would see them, in pixels from the
+// principal point.
 std::vector<cv::Point2f> undistorted(std::span<const LaserPoint> points,
                                      const CameraModel& camera) {
   std::vector<cv::Point2f> straight;
@@ -46,8 +46,8 @@ double median_distance(std::span<const cv::Point2f> points, const ImageLine& lin
   return *middle;
 }
 
-// Finds a first line through two points by least median of squares. A fixed seed makes the result
-// repeatable.
+// Returns a first estimate of the line, by least median of squares over lines through two points. A
+// fixed seed makes the result repeatable.
 ImageLine first_line(std::span<const cv::Point2f> points) {
   constexpr int kTrials = 100;
   std::mt19937 random(1);
@@ -69,7 +69,7 @@ double reach(std::span<const cv::Point2f> points, const ImageLine& line) {
   return std::max(kSigmas * 1.4826 * median_distance(points, line), kStripeWidth);
 }
 
-// Fits a line by least squares to the points near `around`.
+// Fits a line by least squares to the points near the line `around`.
 ImageLine refined(std::span<const cv::Point2f> points, const ImageLine& around) {
   const double near = reach(points, around);
   std::vector<cv::Point2f> on_line;
@@ -80,7 +80,8 @@ ImageLine refined(std::span<const cv::Point2f> points, const ImageLine& around) 
   return {{line[2], line[3]}, {line[1], -line[0]}};
 }
 
-// Returns the points of one picture that lie on the stripe's line. Empty if no line is clear.
+// Returns the points of one picture that lie on the stripe's line. Returns an empty list if too few
+// points lie on one line.
 std::vector<LaserPoint> on_line(std::span<const LaserPoint> picture, const CameraModel& camera) {
   if (picture.size() < kLeastOnLine) return {};
   const std::vector<cv::Point2f> points = undistorted(picture, camera);

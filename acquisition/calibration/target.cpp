@@ -47,7 +47,7 @@ Unexpected bad(const std::string& what) {
   return fail(ErrorCode::kBadInput, what + "; describe the target as it was printed");
 }
 
-// Returns advice on the exposure, or an empty string if the picture's brightness is fine.
+// Returns advice on the exposure, or an empty string if the brightness is fine.
 const char* light_of(const Frame& frame) {
   const double pixels = static_cast<double>(frame.pixels.size());
   const auto saturated = std::ranges::count(frame.pixels, 255);
@@ -57,7 +57,7 @@ const char* light_of(const Frame& frame) {
                                                      : "";
 }
 
-// Returns whether the corners determine the board's pose. Corners of a single row or column do not.
+// Returns whether the corners determine the board's pose. Corners in one row or one column do not.
 bool tells_pose(const std::vector<int>& ids, int columns) {
   std::set<int> rows_seen, columns_seen;
   for (int id : ids) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The calibration target: a ChArUco board, a chessboard whose white squares hold markers.
+// The calibration target, a ChArUco board: a chessboard with a marker in each white square.
 #pragma once
 
 #include <string>
@@ -27,7 +27,8 @@ struct TargetView {
   std::vector<ImagePoint> corners;
 };
 
-// Fails with kBadInput if such a target is not possible; the error says which value is wrong.
+// Checks the dimensions of a target. Fails with kBadInput if they are impossible; the error says
+// which value is wrong.
 Expected<void> check_target(const CharucoTarget& target);
 
 // Returns the position of an inner corner on the target.

@@ -14,8 +14,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Aravis repeats a request after half a second without an answer, and the camera may execute both.
-// If an answer takes this long, the request may have been repeated.
+// Aravis repeats a request that the camera does not answer within 500 ms. The camera may then
+// execute both copies. If a call takes longer than this, the request may have been sent twice.
 constexpr std::chrono::milliseconds kAskedAgain{450};
 constexpr int kBuffers = 4;
 // Packet size in bytes on the loopback interface, where the path's MTU cannot be probed.
@@ -73,8 +73,8 @@ class AravisCamera final : public Camera {
   Expected<void> set_gain(double decibels);
   void drain();
   Expected<void> start_afresh();
-  // Triggers the camera once. Returns nullopt, with the reason in `missing_`, if no whole frame
-  // arrives.
+  // Triggers the camera once. Returns nullopt if no complete frame arrives, and stores the reason
+  // in `missing_`.
   Expected<std::optional<Frame>> shoot();
   std::optional<Frame> frame_in(ArvBuffer& buffer);
 
@@ -196,7 +196,7 @@ Expected<void> AravisCamera::set_exposure(double microseconds) {
   return {};
 }
 
-// A camera without gain is acceptable if no gain is requested.
+// Accepts a camera without gain control if no gain is requested.
 Expected<void> AravisCamera::set_gain(double decibels) {
   AravisError fault;
   if (!arv_camera_is_gain_available(camera_.get(), nullptr)) {
@@ -258,8 +258,9 @@ std::optional<Frame> AravisCamera::frame_in(ArvBuffer& buffer) {
   return Frame{.width = region_.width, .height = region_.height, .pixels = {bytes, bytes + pixels}};
 }
 
-// Restarts the stream. Otherwise a frame of an earlier trigger may still arrive and be taken for
-// the frame of a later trigger. A camera may also execute an earlier trigger when it starts.
+// Restarts the stream. Otherwise a late frame of an earlier trigger could be mistaken for the frame
+// of the next trigger. Restarting also discards a trigger that the camera has stored and would
+// execute when it starts.
 Expected<void> AravisCamera::start_afresh() {
   if (auto stopped = stop(); !stopped) return stopped;
   if (auto started = run(); !started) return started;
@@ -275,7 +276,7 @@ Expected<std::optional<Frame>> AravisCamera::shoot() {
   const auto asked = std::chrono::steady_clock::now();
   arv_camera_software_trigger(camera_.get(), fault.out());
   if (fault) {
-    is_lost_ = true;  // the camera answered none of the repeated requests
+    is_lost_ = true;  // the camera did not answer, although Aravis repeated the request
     return failed("trigger", fault);
   }
   if (std::chrono::steady_clock::now() - asked >= kAskedAgain) {

@@ -23,7 +23,8 @@ Expected<std::unique_ptr<Board>> open_guarded(const BoardSelector& selector,
                                               const BoardOptions& options) {
   auto opened = open_controller(selector, options.response_timeout);
   if (!opened) return tl::unexpected(opened.error());
-  // The guardian starts before anything is switched on, and it guards exactly this board.
+  // Starts the guardian before anything is switched on. The guardian must find exactly this board,
+  // so the selector gets the board's serial number and port.
   BoardSelector this_one = selector;
   this_one.serial = opened->port->serial();
   this_one.port = opened->port->socket();

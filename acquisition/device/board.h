@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "acquisition/device/power_record.h"
 #include "codec/core/expected.h"
 
 namespace vitrine::acquisition {
@@ -19,13 +20,13 @@ enum class BoardDialect { kHorus, kFabScan };
 Expected<BoardDialect> parse_board_dialect(const std::string& name);
 const char* name_of(BoardDialect dialect);
 
-// Selects a board by the vendor and product numbers of its USB device. The serial number or the
-// port distinguishes boards with the same numbers.
+// Selects a board by the vendor and product numbers of its USB device. Set the serial number or the
+// port if several boards have the same numbers.
 struct BoardSelector {
   BoardDialect dialect = BoardDialect::kHorus;
   std::uint16_t vendor = 0, product = 0;
   std::string serial;  // serial number of the USB device; empty: any
-  std::string port;    // bus, then hub ports, such as "1-2.4"; empty: any
+  std::string port;    // USB bus, then hub ports, such as "1-2.4"; empty: any port
   // Motor steps in one revolution. Used for FabScan only; Horus boards report the number
   // themselves.
   int steps_per_turn = 3200;
@@ -40,15 +41,18 @@ struct BoardOptions {
   // The program that switches the board off if this process dies. Empty: `vitrine-guardian` in the
   // folder of the running program.
   std::filesystem::path guardian;
+  // Receives the state of laser and motor until the board is destroyed.
+  std::shared_ptr<PowerRecord> power = std::make_shared<PowerRecord>();
 };
 
 struct BoardIdentity {
-  // "horus" or "fabscan"; the banner that the board sent; the serial number of its USB device.
+  // dialect: "horus" or "fabscan". firmware: the banner that the board sent. serial: the serial
+  // number of its USB device.
   std::string dialect, firmware, serial;
 };
 
-// An open controller board. Laser and motor are off after opening. The board switches them off
-// again if it is closed, a call fails, no call arrives within the watchdog's time, or this process
+// An open controller board. Laser and motor are off after opening. They are switched off again when
+// the board is closed, a call fails, no call arrives within the watchdog's time, or this process
 // dies. Only one thread at a time may call, except for emergency_stop(). After an error (kIo),
 // close the board by destroying this object and open it again.
 class Board {
@@ -62,8 +66,8 @@ class Board {
   // board does not know the angle, as after a restart or an emergency stop. A FabScan board does
   // not count steps, so its angle is known only in the process that set it.
   virtual Expected<std::optional<double>> position() = 0;
-  // Declares that the table stands at `degrees` now. The table ends where it stood, but it may turn
-  // to 0 and back, because a Horus board can reset its counter only at 0.
+  // Declares that the table stands at `degrees` now. The table may turn to 0 and back to where it
+  // stood, because a Horus board can reset its counter only at 0.
   virtual Expected<void> set_position(double degrees) = 0;
   // Turns the table to an angle and returns when the motion is complete. `degrees` may exceed a
   // revolution. If position() is nullopt, degrees count from the angle at which the board was
@@ -83,8 +87,8 @@ class Board {
 
 // Finds and opens a board. Fails with kIo if the board is absent, not accessible, or held by
 // another program for more than five seconds. Fails with kBadInput if several boards match or the
-// board does not speak the dialect. An Arduino restarts only the first time it is opened after
-// being plugged in.
+// board does not speak the dialect. An Arduino restarts only when it is opened for the first time
+// after being plugged in.
 Expected<std::unique_ptr<Board>> open_board(const BoardSelector& selector,
                                             const BoardOptions& options = {});
 

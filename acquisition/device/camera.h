@@ -23,8 +23,8 @@ struct CameraSettings {
 };
 
 inline constexpr int kFrameTries = 3;  // capture() requests a frame at most this many times
-// Timeouts in microseconds, in addition to the exposure. kFrameTimeout applies to a requested
-// frame. kStrayTimeout applies to an earlier frame that is still in progress before a new request.
+// Timeouts in microseconds, each added to the exposure time. kFrameTimeout applies to a requested
+// frame. kStrayTimeout applies to a late frame of an earlier request, which is discarded.
 inline constexpr double kFrameTimeout = 500'000, kStrayTimeout = 100'000;
 
 // Returns the longest time, in microseconds, that capture() takes if the camera responds.
@@ -33,8 +33,8 @@ constexpr double longest_capture(double exposure_us) {
 }
 
 // An open camera, owned and called by one thread. After any error (kIo), close the camera by
-// destroying this object and open it again by its serial number. Errors name the camera and what to
-// check.
+// destroying this object and open it again by its serial number. Errors name the camera and say
+// what to check.
 class Camera {
  public:
   virtual ~Camera() = default;
@@ -43,11 +43,12 @@ class Camera {
   // The region of the sensor that is read. Never empty.
   virtual SensorRegion region() const = 0;
 
-  // Fails with kBadInput, naming the limits, if the camera does not support the settings.
+  // Applies the settings. Fails with kBadInput if the camera does not support them; the error
+  // states the camera's limits.
   virtual Expected<void> configure(const CameraSettings& settings) = 0;
 
-  // Sends one software trigger and returns one frame of region()'s size. The exposure of that frame
-  // began after the call. A frame that is incomplete, or does not arrive within the exposure plus
+  // Sends one software trigger and returns one frame of region()'s size. The exposure of this frame
+  // begins after the call. A frame that is incomplete, or does not arrive within the exposure plus
   // 500 ms, is requested again, up to three times in all.
   virtual Expected<Frame> capture() = 0;
 };

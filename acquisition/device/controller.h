@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exchanges the commands of one dialect with a board. SafeBoard adds the watchdog, the guardian
-// process and the switching off.
+// Sends commands to a board in the board's dialect. SafeBoard adds the watchdog, the guardian
+// process and switching off after errors.
 #pragma once
 
 #include <chrono>
@@ -27,7 +27,7 @@ class Controller {
   // board does not speak the dialect.
   virtual Expected<std::string> greet() = 0;
 
-  // These functions have the same contracts as in Board.
+  // These functions have the same contracts as the functions of the same names in Board.
   virtual Expected<std::optional<double>> position() = 0;
   virtual Expected<void> set_position(double degrees) = 0;
   virtual Expected<void> turn_to(double degrees) = 0;
@@ -36,8 +36,8 @@ class Controller {
   // Switches laser and motor off and waits for the board's confirmation. Also works before greet().
   virtual Expected<void> switch_off() = 0;
   // Switches laser and motor off at once, whatever the board is doing, without confirmation.
-  // Callable from any thread.
-  virtual void halt() noexcept = 0;
+  // Callable from any thread. Returns whether the command could be sent.
+  virtual bool halt() noexcept = 0;
 };
 
 std::unique_ptr<Controller> make_horus(SerialPort& port, std::chrono::milliseconds timeout);

@@ -19,7 +19,7 @@ Expected<std::optional<std::string>> Conversation::hear(SerialPort::Clock::time_
 }
 
 Expected<void> Conversation::ignore_all(std::chrono::milliseconds quiet) {
-  constexpr int kMostReads = 100;  // bound for a board that never stops sending
+  constexpr int kMostReads = 100;  // ends the loop if a board never stops sending
   for (int i = 0; i < kMostReads; ++i) {
     const Expected<std::string> bytes = port_.read(SerialPort::Clock::now() + quiet);
     if (!bytes) return tl::unexpected(bytes.error());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exchanges lines with a controller, each within a timeout.
+// Exchanges lines of text with a controller. Each exchange has a timeout.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ class Conversation {
 
   SerialPort& port() { return port_; }
   Expected<void> say(std::string_view line);  // `line` excludes the line feed
-  // Returns the next line, or nullopt once `deadline` has passed. After the deadline it ignores
-  // even a line that has arrived: this process may have been suspended, and another process may
+  // Returns the next line, or nullopt once `deadline` has passed. After the deadline, ignores even
+  // a line that has arrived, because this process may have been suspended and another process may
   // have used the board since.
   Expected<std::optional<std::string>> hear(SerialPort::Clock::time_point deadline);
   // Discards input until the board has been silent for `quiet`.

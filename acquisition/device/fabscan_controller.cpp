@@ -28,7 +28,7 @@ class FabScanController final : public Controller {
   Expected<void> turn_to(double degrees) override;
   Expected<void> laser(bool on) override;
   Expected<void> switch_off() override;
-  void halt() noexcept override { (void)talk_.port().restart_controller(); }
+  bool halt() noexcept override { return talk_.port().restart_controller().has_value(); }
 
  private:
   // Sends a command and returns the last line of the answer before the prompt. Empty if the answer
@@ -95,8 +95,8 @@ Expected<std::optional<double>> FabScanController::position() {
   return static_cast<double>(steps_) / steps_per_degree_;
 }
 
-// Rounds to the motor step at which a motion to that angle ends. So a resumed scan gives the same
-// result as an uninterrupted scan.
+// Stores the nearest motor step, because a motion to that angle would end there. So a resumed scan
+// gives the same result as an uninterrupted scan.
 Expected<void> FabScanController::set_position(double degrees) {
   steps_ = step_at(degrees);
   is_known_ = true;

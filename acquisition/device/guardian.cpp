@@ -79,8 +79,8 @@ Expected<void> spawn(std::vector<std::string> words, int input) {
   return {};
 }
 
-// Retries for a while: the kernel may need a moment to release the board of a dead process, and the
-// user may still have to plug the board in again.
+// Retries for a while. The kernel may need a moment to release the board of a dead process, or the
+// user may plug the board in again.
 bool switch_off(const BoardSelector& selector) {
   constexpr int kAttempts = 20;
   std::string why;
@@ -97,8 +97,8 @@ bool switch_off(const BoardSelector& selector) {
   return false;
 }
 
-// Waits until the guarded process dismisses the guardian or closes the socket. Returns true if it
-// dismissed the guardian.
+// Waits until the guarded process sends a dismissal or closes the socket. Returns true if a
+// dismissal arrived.
 bool dismissed() {
   char byte = 0;
   ssize_t count = 0;
@@ -155,7 +155,7 @@ int guard(int argc, char** argv) {
     fmt::print(stderr, "{}\n", selector.error().message);
     return 2;
   }
-  // The parent exits, so the guardian is detached and the guarded process need not reap it.
+  // Detaches the guardian: the parent exits, so the guarded process need not reap the child.
   if (const pid_t child = ::fork(); child != 0) return child < 0 ? 1 : 0;
   ::setsid();  // signals of the terminal or the service must not reach the guardian
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})

@@ -10,9 +10,9 @@
 namespace vitrine::acquisition {
 
 // A running guardian process. The guardian waits at the other end of a socket and holds no other
-// resource. If the socket closes before dismiss() is called, the guardian opens the board and
-// switches it off. The socket closes when this process ends or this object is destroyed. The
-// destructor does not wait for the guardian.
+// resource. If the socket closes without dismiss(), the guardian opens the board and switches it
+// off. The socket closes when this process ends or this object is destroyed. The destructor does
+// not wait for the guardian.
 class Guardian {
  public:
   static Expected<Guardian> start(const BoardSelector& selector,

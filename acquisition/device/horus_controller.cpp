@@ -25,7 +25,7 @@ class HorusController final : public Controller {
   Expected<void> turn_to(double degrees) override;
   Expected<void> laser(bool on) override { return command(horus::laser(1, on), timeout_); }
   Expected<void> switch_off() override;
-  void halt() noexcept override;
+  bool halt() noexcept override;
 
  private:
   // Waits for a reply of that kind and skips all other replies before it. Returns nullopt after
@@ -41,7 +41,7 @@ class HorusController final : public Controller {
   Unexpected refused(std::string_view line, const horus::Reply& reply) const;
 
   Conversation talk_;
-  std::string name_, heard_;  // heard_: the last line that cannot come from a Horus board
+  std::string name_, heard_;  // heard_: the last received line that no Horus board sends
   milliseconds timeout_;
   bool is_counted_ = false;  // whether the board's counter is valid
   bool is_motor_on_ = false;
@@ -113,8 +113,8 @@ Expected<std::optional<horus::Reply>> HorusController::ask_modes() {
   return std::nullopt;
 }
 
-// Returns the text of the banner without restarting the board. If the board does not know the
-// version query, the text has no version.
+// Returns the text of the banner without restarting the board. The text has no version if the board
+// does not answer the version query.
 Expected<std::string> HorusController::ask_version() {
   if (auto said = talk_.say(horus::kAskVersion); !said) return tl::unexpected(said.error());
   const auto version = await(ReplyKind::kVersion, kAskAgain);
@@ -137,7 +137,7 @@ Expected<std::string> HorusController::restart() {
                           name_, said == LineReader::kGarbage ? "(unreadable)" : said));
 }
 
-// A board that holds a position is not restarted, because a restart would clear the position.
+// Does not restart a board that knows its position, because a restart would clear the position.
 Expected<std::string> HorusController::greet() {
   const auto modes = ask_modes();
   if (!modes) return tl::unexpected(modes.error());
@@ -182,8 +182,8 @@ Expected<void> HorusController::turn(double degrees, int speed) {
                  timeout_ + milliseconds(static_cast<std::int64_t>(1000 * seconds)));
 }
 
-// The counter can be reset only at 0, so the table moves there first. It moves at the speed that
-// marks the counter as invalid, until the procedure is complete.
+// Moves the table to 0 first, because the counter can be reset only there. The motion runs at the
+// speed that marks the counter as invalid, so an interruption leaves it marked as invalid.
 Expected<void> HorusController::set_position(double degrees) {
   if (degrees != 0) {
     const Expected<double> at = counter();
@@ -210,8 +210,8 @@ Expected<void> HorusController::switch_off() {
   return {};
 }
 
-void HorusController::halt() noexcept {
-  (void)talk_.port().write({&horus::kReset, 1});
+bool HorusController::halt() noexcept {
+  return talk_.port().write({&horus::kReset, 1}).has_value();
 }
 
 }  // namespace

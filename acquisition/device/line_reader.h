@@ -29,7 +29,7 @@ class LineReader {
   char prompt_;
   bool is_garbage_ = false;
   std::string line_;
-  std::deque<std::string> lines_;  // at most kMostLines; the oldest lines are dropped
+  std::deque<std::string> lines_;  // limited to kMostLines; the oldest lines are dropped
 };
 
 }  // namespace vitrine::acquisition

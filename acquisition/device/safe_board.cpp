@@ -16,13 +16,14 @@ using Clock = std::chrono::steady_clock;
 
 class SafeBoard final : public Board {
  public:
-  SafeBoard(OpenedController opened, BoardIdentity identity, std::chrono::milliseconds watchdog,
+  SafeBoard(OpenedController opened, BoardIdentity identity, const BoardOptions& options,
             Guardian guardian)
       : guardian_(std::move(guardian)),
         port_(std::move(opened.port)),
         controller_(std::move(opened.controller)),
         identity_(std::move(identity)),
-        watchdog_timeout_(watchdog) {}
+        watchdog_timeout_(options.watchdog),
+        power_(options.power) {}
   ~SafeBoard() override;
 
   Expected<void> start();
@@ -42,18 +43,23 @@ class SafeBoard final : public Board {
   auto guarded(Call call) -> decltype(call());
   template <class T>
   Expected<T> judged(Expected<T> result);
+  // Records that the table turns while `motion` runs.
+  template <class Motion>
+  Expected<void> moved(Motion motion);
   void switch_off();
+  void halt() noexcept;
   void lose_guardian();
   void watch();
 
-  Guardian guardian_;  // destroyed last
+  Guardian guardian_;  // declared first, so destroyed last
   std::unique_ptr<SerialPort> port_;
   std::unique_ptr<Controller> controller_;
   BoardIdentity identity_;
   std::chrono::milliseconds watchdog_timeout_;
+  std::shared_ptr<PowerRecord> power_;
   std::atomic<bool> is_stopped_{false};
 
-  std::mutex mutex_;  // guards the members below, and also controller_, except for halt()
+  std::mutex mutex_;  // guards the members below, and all calls of controller_ except halt()
   std::condition_variable closing_soon_;
   bool is_off_ = false;  // the board confirmed the last switch-off
   std::optional<Error> failure_;
@@ -66,7 +72,8 @@ Expected<void> SafeBoard::start() {
   auto firmware = controller_->greet();
   if (!firmware) {
     if (firmware.error().code == ErrorCode::kIo) switch_off();
-    // Nothing has been switched on, and the guardian would disturb the next attempt.
+    // Nothing is switched on yet. A guardian that kept running would disturb the next attempt to
+    // open the board.
     guardian_.dismiss();
     return tl::unexpected(std::move(firmware).error());
   }
@@ -76,13 +83,23 @@ Expected<void> SafeBoard::start() {
     guardian_.dismiss();
     return off;
   }
+  power_->both_off();
   watchdog_ = std::thread([this] { watch(); });
   return {};
 }
 
 void SafeBoard::switch_off() {
   is_off_ = controller_->switch_off().has_value();
-  if (!is_off_) controller_->halt();
+  if (is_off_) return power_->both_off();
+  power_->unknown();
+  controller_->halt();
+}
+
+// Counts the board as off if the command could be sent, because the boards' firmware obeys it
+// without a confirmation.
+void SafeBoard::halt() noexcept {
+  if (controller_->halt()) return power_->both_off();
+  power_->unknown();
 }
 
 void SafeBoard::lose_guardian() {
@@ -95,7 +112,7 @@ void SafeBoard::lose_guardian() {
 template <class T>
 Expected<T> SafeBoard::judged(Expected<T> result) {
   if (is_stopped_) {
-    controller_->halt();  // `call` may have switched something on after emergency_stop()
+    halt();  // `call` may have switched something on after emergency_stop()
     return fail(ErrorCode::kState,
                 port_->name() + " was stopped in an emergency; open the scanner again to continue");
   }
@@ -117,24 +134,42 @@ auto SafeBoard::guarded(Call call) -> decltype(call()) {
   return result;
 }
 
+template <class Motion>
+Expected<void> SafeBoard::moved(Motion motion) {
+  power_->motor(MotorState::kTurning);
+  auto done = motion();
+  if (done) power_->motor(MotorState::kHolding);
+  return done;
+}
+
 Expected<std::optional<double>> SafeBoard::position() {
   return guarded([this] { return controller_->position(); });
 }
 
 Expected<void> SafeBoard::set_position(double degrees) {
-  return guarded([&] { return controller_->set_position(degrees); });
+  if (degrees == 0) return guarded([&] { return controller_->set_position(degrees); });
+  return guarded([&] { return moved([&] { return controller_->set_position(degrees); }); });
 }
 
 Expected<void> SafeBoard::turn_to(double degrees) {
-  return guarded([&] { return controller_->turn_to(degrees); });
+  return guarded([&] { return moved([&] { return controller_->turn_to(degrees); }); });
 }
 
 Expected<void> SafeBoard::laser(bool on) {
-  return guarded([&] { return controller_->laser(on); });
+  return guarded([&] {
+    if (on) power_->laser(LaserState::kOn);
+    auto done = controller_->laser(on);
+    if (done && !on) power_->laser(LaserState::kOff);
+    return done;
+  });
 }
 
 Expected<void> SafeBoard::rest() {
-  auto off = guarded([this] { return controller_->switch_off(); });
+  auto off = guarded([this] {
+    auto done = controller_->switch_off();
+    if (done) power_->both_off();
+    return done;
+  });
   const std::lock_guard lock(mutex_);
   is_resting_ = true;
   return off;
@@ -142,12 +177,13 @@ Expected<void> SafeBoard::rest() {
 
 void SafeBoard::emergency_stop() noexcept {
   is_stopped_ = true;
-  controller_->halt();
+  halt();
   port_->cancel();
 }
 
-// Switches laser and motor off if the caller makes no call within the watchdog's timeout. Later
-// calls fail, because laser and table are no longer in the state that the caller expects.
+// Waits in a thread of its own. Switches laser and motor off if the caller makes no call within the
+// watchdog's timeout. Later calls fail, because laser and table are no longer in the state that the
+// caller expects.
 void SafeBoard::watch() {
   std::unique_lock lock(mutex_);
   while (!is_closing_) {
@@ -178,7 +214,8 @@ SafeBoard::~SafeBoard() {
     watchdog_.join();
     if (!is_stopped_ && !failure_) switch_off();
   }
-  // If the board is not confirmed off, the guardian acts as if this process had died.
+  // Dismisses the guardian only if the board has confirmed that it is off. Otherwise the guardian
+  // switches the board off.
   if (is_off_ && !is_stopped_) guardian_.dismiss();
 }
 
@@ -186,7 +223,7 @@ SafeBoard::~SafeBoard() {
 
 Expected<std::unique_ptr<Board>> make_safe(OpenedController opened, BoardIdentity identity,
                                            const BoardOptions& options, Guardian guardian) {
-  auto board = std::make_unique<SafeBoard>(std::move(opened), std::move(identity), options.watchdog,
+  auto board = std::make_unique<SafeBoard>(std::move(opened), std::move(identity), options,
                                            std::move(guardian));
   if (auto started = board->start(); !started) return tl::unexpected(started.error());
   return board;

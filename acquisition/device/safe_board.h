@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a Board from a controller. The Board switches laser and motor off however its use ends.
+// Makes a Board from a controller. This Board switches laser and motor off no matter how its use
+// ends.
 #pragma once
 
 #include <memory>

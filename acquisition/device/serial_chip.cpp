@@ -21,8 +21,8 @@ ControlRequest class_request(std::uint8_t request, std::uint16_t value, std::uin
           .index = interface};
 }
 
-// Returns the baud rate request of the FT232R, which divides 3 MHz by a multiple of 1/8. The
-// eighths are coded in bits 14 and 15, and in the index.
+// Returns the request that sets the baud rate of an FT232R. The chip divides 3 MHz by a multiple of
+// 1/8; the eighths are coded in bits 14 and 15, and in the index.
 ControlRequest ftdi_baud(int baud) {
   constexpr std::array<std::uint32_t, 8> kEighths = {0, 3, 2, 4, 1, 5, 6, 7};
   const std::uint32_t eighths = (24'000'000u + static_cast<std::uint32_t>(baud) / 2) / baud;
@@ -38,8 +38,8 @@ std::vector<ControlRequest> ftdi_set_up(int baud) {
           vendor_request(9, 1, 0)};  // latency: 1 ms
 }
 
-// Returns the divisor of CH340 and CH341 for a baud rate. Its high byte gives the start of a
-// counter, which runs up to 2^16. Its low bits, p, select the prescaler 8^(3 - p).
+// Returns the divisor of CH340 and CH341 for a baud rate. The divisor's high byte is the start of a
+// counter that runs up to 2^16. The divisor's low bits, p, select the prescaler 8^(3 - p).
 std::uint16_t ch34x_divisor(int baud) {
   std::uint32_t factor = 1'532'620'800u / static_cast<std::uint32_t>(baud);
   std::uint32_t prescaler = 3;

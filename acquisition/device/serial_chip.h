@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operates a USB device as a serial line: the control requests that configure the chip, and the
-// payload of its packets. The line has 8 data bits, no parity, 1 stop bit and no flow control.
-// Source: [CDC-ACM].
+// Operates a USB device as a serial line: makes the control requests that configure the chip, and
+// extracts the payload of its packets. The line has 8 data bits, no parity, 1 stop bit and no flow
+// control. Source: [CDC-ACM].
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct ControlRequest {
   bool operator==(const ControlRequest&) const = default;
 };
 
-// Recognises the serial chip by vendor and product. Any other device with CDC-ACM interfaces counts
-// as CDC-ACM.
+// Returns the serial chip of a device, found by vendor and product number. Any other device with
+// CDC-ACM interfaces counts as CDC-ACM.
 std::optional<SerialChip> chip_by_id(std::uint16_t vendor, std::uint16_t product);
 
 // Returns the requests that configure the chip. `interface` is the control interface of CDC-ACM,

@@ -16,17 +16,16 @@ class SerialPort {
 
   virtual ~SerialPort() = default;
 
-  // The name for messages, such as "USB board 2341:0043"; the serial number; the USB port, such as
-  // "1-2.4". Serial number and port are empty if the device has none.
+  // name() is for messages, such as "USB board 2341:0043". serial() is the device's serial number,
+  // socket() its USB port, such as "1-2.4". Both are empty if the device has none.
   virtual const std::string& name() const = 0;
   virtual const std::string& serial() const = 0;
   virtual const std::string& socket() const = 0;
 
   // Callable from any thread.
   virtual Expected<void> write(std::string_view bytes) = 0;
-  // Returns the bytes received since the last read(). If there are none, waits for at least one
-  // byte until `deadline`, and returns an empty string after that. One thread at a time may call
-  // it.
+  // Returns the bytes received since the last read(). If there are none, waits for a byte until
+  // `deadline`, then returns an empty string. Only one thread at a time may call read().
   virtual Expected<std::string> read(Clock::time_point deadline) = 0;
   // Makes a read() in progress and all later read() calls fail with kState. Callable from any
   // thread.

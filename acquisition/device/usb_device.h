@@ -27,9 +27,9 @@ Expected<UsbContext> open_usb();
 
 // Returns a name for messages, such as "USB board 2341:0043".
 std::string usb_name(const BoardSelector& selector);
-// Returns the error that this user may not open the device, with the remedy.
+// Returns the error for a device that this user may not open, with the remedy.
 Error no_access(const BoardSelector& selector);
-// Returns an error for any other failure of libusb, with the next step.
+// Returns the error for any failure of libusb other than missing permission, with the next step.
 Error usb_error(const std::string& name, const char* doing, int code);
 
 struct UsbDevice {
@@ -38,15 +38,15 @@ struct UsbDevice {
   std::string port;    // same format as in BoardSelector
 };
 
-// choose() returns the candidate that `selector` selects. open_usb_device() makes the candidates
-// from the connected devices and calls choose(). The serial number of a device that cannot be
-// opened is unknown. If no other device matches, the error names the device that could not be
-// opened.
+// choose() returns the one candidate that matches `selector`. open_usb_device() makes the
+// candidates from the connected devices and calls choose(). A device that cannot be opened is an
+// error among the candidates, because its serial number cannot be read. If no other device matches,
+// choose() returns that error.
 Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
                            const BoardSelector& selector);
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector);
 
-// The endpoints of a device's serial line.
+// The USB interfaces and endpoints of a device's serial line.
 struct SerialEndpoints {
   SerialChip chip = SerialChip::kCdcAcm;
   int control_interface = -1, data_interface = 0;  // control_interface is used by CDC-ACM only

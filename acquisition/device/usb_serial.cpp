@@ -22,8 +22,8 @@ struct TransferDeleter {
   void operator()(libusb_transfer* transfer) const { libusb_free_transfer(transfer); }
 };
 
-// A serial line over USB. One thread handles libusb's events, and two IN transfers are always
-// pending.
+// A serial line over USB. One thread handles libusb's events. Two IN transfers are always pending,
+// so that no input is missed.
 class UsbSerial final : public SerialPort {
  public:
   UsbSerial(std::string name, UsbContext context, UsbDevice device, SerialEndpoints line)
@@ -98,8 +98,8 @@ Expected<void> UsbSerial::start(int baud) {
   return listen();
 }
 
-// Retries for a while, because the current holder may soon release the device: it may be the
-// guardian of a process that has just died.
+// Retries for a while, because the guardian of a process that has just died may still hold the
+// device.
 Expected<void> UsbSerial::claim() {
   const auto deadline = Clock::now() + kClaimTimeout;
   for (const int interface : {line_.control_interface, line_.data_interface}) {
@@ -175,7 +175,7 @@ void UsbSerial::arrived(Incoming& incoming) {
   const std::lock_guard lock(mutex_);
   const auto length = static_cast<std::size_t>(std::max(0, transfer.actual_length));
   append_payload(line_.chip, std::span(incoming.bytes).first(length), line_.packet_size, unread_);
-  if (unread_.size() > kMostUnread) unread_.clear();  // so many bytes cannot be an answer
+  if (unread_.size() > kMostUnread) unread_.clear();  // no answer is that long
   const bool usable = transfer.status == LIBUSB_TRANSFER_COMPLETED;
   incoming.is_pending =
       usable && !is_closing_ && libusb_submit_transfer(incoming.transfer.get()) == LIBUSB_SUCCESS;

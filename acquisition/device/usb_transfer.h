@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends to a USB device while another thread handles libusb's events. libusb's synchronous calls
-// are not used, because they free memory that the other thread may still use.
+// are not used, because they free memory that the event thread may still use.
 #pragma once
 
 #include <libusb.h>

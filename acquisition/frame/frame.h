@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A camera picture, and positions in it. In pixel coordinates, u points to the right and v down.
-// Pixel centres are integers, and (0, 0) is the top left pixel.
+// The centre of the top left pixel is (0, 0).
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace vitrine::acquisition {
 
-// A monochrome picture with 8 bits for each pixel, row by row without gaps: pixels.size() == width
-// * height.
+// A monochrome picture with 8 bits for each pixel, row by row without gaps. So pixels.size() is the
+// product of width and height.
 struct Frame {
-  int width = 0, height = 0;  // pixels of the region that was read
+  int width = 0, height = 0;  // size of the region that was read, in pixels
   std::vector<std::uint8_t> pixels;
 
   std::span<const std::uint8_t> row(int v) const {
@@ -22,7 +22,7 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
-// A position in a picture, to fractions of a pixel.
+// A position in a picture, to sub-pixel precision.
 struct ImagePoint {
   double u = 0, v = 0;  // pixels
 };

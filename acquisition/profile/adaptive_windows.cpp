@@ -10,13 +10,13 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kNone = ~std::size_t{0};
-// If two windows lie on a common line, the cost of merging them comes from noise alone. Divided by
-// the noise's variance, it has a chi-square distribution with two degrees of freedom. 95 % of that
-// distribution lies below this value.
+// Merges that cost less than this, in multiples of the noise's variance, count as free. If two
+// windows lie on a common line, the cost comes from noise alone. That cost has a chi-square
+// distribution with two degrees of freedom, of which 95 % lies below this value.
 constexpr double kInsignificant = 6;
 
 struct Join {
-  double cost;         // mm², in excess of the noise
+  double cost;         // mm²: deviation that noise alone does not explain
   std::size_t length;  // number of points in both windows
   std::size_t left;    // index of the left window's first point
   // The windows' point counts when the merge was proposed. The merge is void if a count has changed

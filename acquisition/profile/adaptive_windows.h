@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Divides a profile into windows that are short where the profile bends.
+// Divides a profile into windows of points, which are short where the profile bends.
 #pragma once
 
 #include <span>
@@ -22,8 +22,8 @@ struct WindowLimits {
   double noise = 0;         // mm: standard deviation of the points
 };
 
-// Returns the windows in ascending order, without gaps or overlaps. No window extends across a
-// point flagged kApart.
+// Returns the windows in ascending order, without gaps or overlaps. A point
+// flagged kApart, where the surface does not continue from the point before, begins a new window.
 std::vector<Window> adaptive_windows(std::span<const ProfilePoint> points,
                                      const WindowLimits& limits);
 

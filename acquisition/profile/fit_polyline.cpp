@@ -24,11 +24,11 @@ Flat across(const Flat& along) {
   return length > 0 ? Flat{-along.z / length, along.rho / length} : Flat{};
 }
 
-// One row of the tridiagonal normal equations.
 struct EquationRow {
-  // The diagonal element. Two virtual points keep a corner in place if it has few real points.
+  // The diagonal element. Its start value acts like two points at the corner, so that a corner with
+  // few real points stays in place.
   double own = 2;
-  double next = 0;  // coupling with the next corner
+  double next = 0;  // the off-diagonal element for the next corner
   double right = 0;
 };
 

@@ -11,13 +11,14 @@ namespace vitrine::acquisition {
 
 struct PolylineVertex {
   ProfilePoint point;
-  // The corner's position along the points: a fractional index, ascending.
+  // The corner's position along the points: a fractional index. Indices ascend from corner to
+  // corner.
   double index = 0;
 };
 
-// Moves each corner perpendicular to the polyline, in the plane of rho and z, so that the sum of
-// squared distances to the points is least. Without this correction, a polyline through means lies
-// on the inner side of each bend. O(points).
+// Moves each corner perpendicular to the polyline, in the plane of rho and z, to minimise the sum
+// of squared distances to the points. Without this correction, a polyline through means lies on the
+// inner side of each bend. O(points).
 void fit_polyline(std::span<const ProfilePoint> points, std::span<PolylineVertex> corners);
 
 }  // namespace vitrine::acquisition

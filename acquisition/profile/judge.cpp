@@ -14,22 +14,22 @@ namespace {
 
 constexpr double kLeastRows = 2;  // least average number of rows with a stripe in a frame
 constexpr double kMostSaturated = .8, kMostDoubled = .5;
-// Largest accepted share of pixels at the end of the camera's range. A stripe, or a lamp in view,
-// covers only a hundredth of a picture.
+// Largest accepted share of pixels at the end of the camera's range. A normal stripe, or a lamp in
+// view, covers only a hundredth of a picture.
 constexpr double kMostFull = .05;
 constexpr int kFullLevel = 254;     // grey level at which a stripe counts as saturated
 constexpr double kLeastHeight = 1;  // mm: least height of an object
-constexpr double kStrays = .02;     // share of the points left out at the top, and at the bottom
+constexpr double kStrays = .02;     // share of the points ignored at the top, and at the bottom
 constexpr double kMostShift = 10;   // pixels: largest shift of a line between adjacent rows
 
-// Returns whether two points belong to a line. Noise often exceeds the threshold in a single row,
-// but rarely at nearly the same place in the next row too.
+// Returns whether two points in adjacent rows belong to a line. Noise often exceeds the threshold
+// in one row, but rarely at nearly the same place in the next row too.
 bool is_line(const StripePoint& a, const StripePoint& b) {
   return b.row == a.row + 1 && std::abs(b.u - a.u) <= kMostShift;
 }
 
-// Returns the first point of each row. A point is flagged kDouble if a second point follows in its
-// row, whatever the strength of the second.
+// Returns the first point of each row. Flags the point kDouble if a second point follows in the
+// row, however weak the second is.
 std::vector<StripePoint> one_a_row(std::span<const StripePoint> stripe) {
   std::vector<StripePoint> first;
   for (const StripePoint& point : stripe) {

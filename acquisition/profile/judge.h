@@ -14,7 +14,7 @@ namespace vitrine::acquisition {
 
 // Counts for one frame, or their sum over many frames.
 struct StripeCount {
-  // `rows` counts the rows with a stripe that continues in the next row.
+  // `rows` counts the rows whose stripe continues in the row before or after.
   std::uint64_t frames = 0, rows = 0;
   std::uint64_t saturated = 0, doubled = 0;
   // `pixels` counts the pixels of all pictures, with and without laser. `full` counts those at the
@@ -26,13 +26,14 @@ struct StripeCount {
 
 StripeCount count(std::span<const StripePoint> stripe);
 // Counts the pixels of a picture, and those at the end of the camera's range. A picture that is
-// full even without laser cannot show the stripe.
+// saturated even without laser cannot show the stripe.
 StripeCount count_full(const Frame& picture);
 StripeCount operator+(const StripeCount& a, const StripeCount& b);
 StripeCount sum(std::span<const StripeCount> counts);
 
-// Shares from 0 to 1. `empty` is the share of rows without a stripe. `saturated` and `doubled` are
-// shares of the rows with a stripe: saturated rows, and rows with two stripes.
+// `empty` is the share of all rows that have no stripe. `saturated` is the share of saturated rows
+// among the rows with a stripe. `doubled` is the share of rows with two stripes among the rows with
+// a stripe. All shares are from 0 to 1.
 struct RowShares {
   double empty = 0, saturated = 0, doubled = 0;
 };
@@ -42,13 +43,14 @@ RowShares shares(const StripeCount& scan, int height);
 // Returns whether the scan shows a stripe that can be measured.
 bool shows_stripe(const StripeCount& scan);
 
-// Judges the counts of a scan. Fails with kBadInput if the pictures are full ("over-exposed"),
-// hardly any frame shows a stripe ("no stripe"), most of the stripe is at the end of the camera's
-// range ("all saturated"), or most rows show two stripes ("two stripes").
+// Judges the counts of a scan. Fails with kBadInput, and one of these messages. "over-exposed": too
+// many pixels are at the end of the camera's range. "no stripe": hardly any frame shows a stripe.
+// "all saturated": most of the stripe is at the end of the range. "two stripes": most rows show two
+// stripes.
 Expected<void> judge(const StripeCount& scan);
 
-// Judges the profiles of a scan. Fails with kBadInput ("empty turntable") if all points but a few
-// outliers lie at one height, as on the bare table.
+// Judges the profiles of a scan. Fails with kBadInput ("empty turntable") if all points except a
+// few outliers lie at one height, as on an empty table.
 Expected<void> judge(std::span<const Profile> scan);
 
 }  // namespace vitrine::acquisition

@@ -32,8 +32,8 @@ class LineFit {
   double squares() const {
     return std::max(0., yy_ - y_ * y_ / n_ - slope() * (xy_ - x_ * y_ / n_));
   }
-  // Returns the least sum of squared perpendicular distances that a line can have from the points.
-  // It is the smaller eigenvalue of the scatter matrix.
+  // Returns the smallest possible sum of squared perpendicular distances between the points and a
+  // line: the smaller eigenvalue of the scatter matrix.
   double squares_across() const {
     const auto [a, b, c] = scatter();
     return std::max(0., (a + c) / 2 - std::hypot((a - c) / 2, b));
@@ -46,9 +46,9 @@ class LineFit {
     const double along = (x - x_ / n_) * along_x + (y - y_ / n_) * along_y;
     return {x_ / n_ + along * along_x, y_ / n_ + along * along_y};
   }
-  // Returns whether one line fits all points, which must be three or more. The line fits if
-  // squares() is at most a limit. If the points deviate only by noise of standard deviation
-  // `noise`, squares() stays below that limit in about 95 % of all cases.
+  // Returns whether one line fits all points, which must be three or more: squares() must not
+  // exceed a limit. If the points deviate only by noise of standard deviation `noise`, squares()
+  // stays below the limit in about 95 % of all cases.
   bool is_within(double noise) const {
     if (n_ < 3) return false;
     return squares() <= noise * noise * (n_ - 2) * (1 + 2.5 / std::sqrt(n_ - 2));

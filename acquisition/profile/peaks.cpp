@@ -15,7 +15,7 @@ constexpr double kLeastNoise = .7;  // grey levels: rounding alone causes this m
 constexpr int kBlock = 64;          // number of bytes compared at once
 
 struct Background {
-  int level = 0;      // grey level of the smoothed difference's background
+  int level = 0;      // background of the smoothed difference, in grey levels
   int threshold = 0;  // grey levels above `level` that a peak must exceed
 };
 
@@ -34,8 +34,8 @@ cv::Mat smoothed_difference(const Frame& lit, const Frame& dark, double width) {
 }
 
 // Returns the median of the smoothed picture, and the threshold for peaks. The noise's standard
-// deviation is the distance from the median to the 84th percentile. The stripe covers too little of
-// the picture to affect either value.
+// deviation is estimated as the difference between the 84th percentile and the median. The stripe
+// covers too little of the picture to affect either value.
 Background background(const cv::Mat& smooth, double contrast) {
   std::array<std::size_t, 256> histogram{};
   std::size_t total = 0;
@@ -107,8 +107,7 @@ RowPeaks peaks_of(const std::uint8_t* row, int width, int apart, const Backgroun
              right = top_of(row, first.u + apart + 1, width);
   const Peak& second = left.strength > right.strength ? left : right;
   if (!shows(second)) return found;
-  // If the row falls from the first peak without a valley, the slope is the first peak's flank and
-  // not another peak.
+  // Without a valley between the two peaks, the second peak is only the flank of the first.
   const int valley = least_between(row, first, second);
   if (4 * valley >= 3 * second.strength) return found;
   add(second);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds candidates for the stripe: up to two peaks for each row, at pixel precision.
+// Finds candidates for the stripe: up to two peaks in each row, to the nearest pixel.
 #pragma once
 
 #include <array>

@@ -11,8 +11,8 @@
 namespace vitrine::acquisition {
 
 // `angle` is the angle, in degrees, by which the motor board has turned the table. Profile::theta
-// always grows counter-clockwise, seen from above; the calibrated axis defines the table's sense of
-// rotation. Points outside the calibrated region are left out.
+// always grows counter-clockwise, seen from above, even if the calibrated axis says that the table
+// turns clockwise. Points outside the calibrated region are left out.
 Profile profile_of(std::span<const StripePoint> stripe, const Calibration& calibration,
                    double angle);
 

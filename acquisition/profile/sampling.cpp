@@ -47,7 +47,7 @@ void for_blocks(Points points, std::size_t length, Take take) {
 }
 
 void sample_equidistantly(Points points, std::size_t length, std::vector<ProfilePoint>& kept) {
-  // kApart if any point omitted since the last kept point has that flag.
+  // kApart if a point that was omitted since the last kept point has that flag, otherwise 0.
   std::uint8_t apart = 0;
   for_blocks(points, length, [&](Points block) {
     kept.push_back(block.front());
@@ -65,17 +65,17 @@ void sample_as_paper(Points points, std::size_t length, std::vector<ProfilePoint
   });
 }
 
-// Returns a point on the window's line, at the position of the window's point `at`.
+// Returns the point of the window's line that is closest to the window's point `at`.
 ProfilePoint end_of(Points points, const Window& window, std::size_t at) {
   ProfilePoint end = points[at];
   end.flags = flags_of(points.subspan(window.first, window.count));
-  const TablePoint& origin = points[0].at;  // the line's coordinates are relative to this point
+  const TablePoint& origin = points[0].at;  // the line is relative to this point
   const auto [rho, z] = window.line.onto(end.at.rho - origin.rho, end.at.z - origin.z);
   end.at.rho = origin.rho + rho, end.at.z = origin.z + z;
   return end;
 }
 
-// Returns the points of all profiles in one sequence, in which a flag separates the profiles.
+// Returns the points of all profiles in one sequence. The flag kApart separates the profiles.
 std::vector<ProfilePoint> chain(std::span<const Profile> profiles) {
   std::vector<ProfilePoint> points;
   for (const Profile& profile : profiles) {
@@ -86,8 +86,8 @@ std::vector<ProfilePoint> chain(std::span<const Profile> profiles) {
   return points;
 }
 
-// Returns the points that represent one profile: the means of its windows and the ends of its
-// parts.
+// Returns the points that represent one profile: the mean of each window, and the ends of each
+// part.
 std::vector<ProfilePoint> corners_of(Points points, std::span<const Window> windows) {
   std::vector<ProfilePoint> kept;
   std::vector<PolylineVertex> part;
@@ -129,7 +129,7 @@ void share_points(std::span<Profile> profiles, const SamplingOptions& options) {
   }
 }
 
-// Works in blocks, which bounds the memory used.
+// Processes the profiles in blocks to bound the memory used.
 void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& options) {
   // Largest number of points in a block, unless one profile has more.
   constexpr std::size_t kShared = 2'000'000;

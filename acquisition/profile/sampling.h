@@ -22,9 +22,9 @@ struct SamplingOptions {
 };
 
 // kPaper follows [WLL] literally. Consecutive blocks have L points; the last block may have fewer.
-// For the n values of rho in a block (eq. 3 and 4)
-//   mean = sum rho_i / n,   s² = sum (rho_i - mean)² / (n - 1);
-// if every |rho_i - mean| <= 3 s, the block becomes one point (mean rho, theta, mean z). Otherwise
+// For the n values of rho in a block, eq. 3 and 4 define:
+//   mean = sum rho_i / n,   s² = sum (rho_i - mean)² / (n - 1).
+// If every |rho_i - mean| <= 3 s, the block becomes one point (mean rho, theta, mean z). Otherwise
 // all its points stay. |rho_i - mean| / s is at most (n - 1) / sqrt(n). So up to L = 10 no value
 // exceeds 3 s, and kPaper is plain averaging.
 //
@@ -38,8 +38,9 @@ struct SamplingOptions {
 // move so that the polyline through them fits all original points best (fit_polyline.h). Profiles
 // with more than 2,000,000 points in all are processed in blocks. O(n log n).
 //
-// A kept point gets the row in the middle of its window, so rows stay ascending. It is kFilled if
-// all points of the window are. It has any other flag that at least one point of the window has.
+// A kept point gets the row in the middle of its window, so rows stay ascending. The point is
+// flagged kFilled if all points of its window are. It has every other flag that any point of its
+// window has.
 void sample(std::span<Profile> profiles, const SamplingOptions& options);
 
 }  // namespace vitrine::acquisition

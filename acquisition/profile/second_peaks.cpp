@@ -8,12 +8,12 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr int kShortestLine = 5;  // shortest line, in rows
+constexpr int kShortestLine = 5;  // rows: shorter lines do not count
 constexpr int kMostSlant = 10;    // pixels: largest shift of a line between adjacent rows
 // Largest strength in the dark gap between two surfaces, as a share of the weaker peak's strength.
 constexpr double kMostLit = .1;
 
-// For each peak of a row, the number of rows of the line that ends at this peak.
+// For each of a row's two peaks, the length in rows of the line that ends there.
 using Lengths = std::array<int, 2>;
 
 // Returns whether the two peaks of a row come from two surfaces, with a dark gap between them. A
@@ -22,8 +22,8 @@ bool are_two_surfaces(const RowPeaks& row) {
   return row.count == 2 && row.valley <= kMostLit * row.peaks[1].strength;
 }
 
-// Returns the length of the line that ends at `peak`. The line continues that of the nearest peak
-// in the row before.
+// Returns the length of the line that ends at `peak`. This line continues the line of the nearest
+// peak in the row before.
 int length_at(const Peak& peak, const RowPeaks& before, const Lengths& lengths) {
   int nearest = kMostSlant + 1, length = 1;
   for (std::size_t k = 0; k < static_cast<std::size_t>(before.count); ++k) {

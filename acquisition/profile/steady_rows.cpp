@@ -10,8 +10,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// The estimate from the median is multiplied by this factor, because it is too small. Speckle moves
-// a few rows much more than most, and the median ignores them.
+// Factor that corrects the noise estimated from the median. Speckle moves a few rows far; the
+// median ignores these rows, so the estimate is too small.
 constexpr double kTails = 1.4;
 
 // Estimates the standard deviation of one row's position. The median of the third differences |a -

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kFull = 254;  // grey level from which a pixel counts as saturated
 constexpr int kFullPixels = 2;
-// Another peak with at least this share of the chosen peak's strength may be the stripe as well.
+// If another peak has at least this share of the chosen peak's strength, either may be the stripe.
 constexpr double kAsStrong = .5;
 
 bool is_saturated(std::span<const std::uint8_t> lit, int u) {
@@ -40,8 +40,8 @@ class Finder {
   Finder(const Frame& lit, const Frame& dark, const StripeOptions& options)
       : lit_(lit), dark_(dark), sub_pixel_(options), steady_rows_(options.steady_rows) {}
 
-  // Refines one peak in each row whose entry in `taken` is not negative. Adds `flags` to the flags
-  // of each point.
+  // Refines one peak of each row to sub-pixel precision. `taken` has the index of this peak, or a
+  // negative number to skip the row. Adds `flags` to each point.
   std::vector<StripePoint> line(std::span<const RowPeaks> rows, std::span<const int> taken,
                                 std::uint8_t flags) const {
     std::vector<StripePoint> points;

@@ -12,7 +12,7 @@
 namespace vitrine::acquisition {
 
 enum class StripeMethod {
-  kDerivativeOfGaussian,  // zero of the smoothed image's derivative; robust to albedo edges
+  kDerivativeOfGaussian,  // zero of the smoothed image's derivative; albedo edges shift it little
   kCentreOfMass,          // centre of mass of the grey levels around the peak
   kBlaisRioux,            // [BR86]: zero of a fourth-order difference; for thin stripes
 };
@@ -39,10 +39,10 @@ struct StripePoint {
 };
 
 // Finds the stripe that `lit` (laser on) shows and `dark` (laser off) does not. Rows without a
-// stripe are left out. If a row has two peaks, the peak that continues the neighbouring rows comes
-// first. It is flagged kDouble if the other peak has similar strength. The other peak follows,
-// flagged kSecond, if it is part of a line over several rows: the row then shows two surfaces, one
-// behind the other. Fails with kBadInput if the frames differ in size.
+// stripe are left out. If a row has two peaks, the peak that continues the stripe of the
+// neighbouring rows comes first. This peak is flagged kDouble if the other peak has similar
+// strength. The other peak follows, flagged kSecond, if it continues over several rows. The row
+// then shows two surfaces, one behind the other. Fails with kBadInput if the frames differ in size.
 Expected<std::vector<StripePoint>> find_stripe(const Frame& lit, const Frame& dark,
                                                const StripeOptions& options = {});
 

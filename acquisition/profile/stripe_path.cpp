@@ -8,12 +8,13 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Cost of a jump, in multiples of the row's strongest peak. A real step of the surface pays this
-// cost only once.
+// Cost of a jump, in multiples of the row's strongest peak. A reflection costs two jumps, a real
+// step of the surface only one.
 constexpr double kJumpCost = 6;
-// Shift from one row to the next that costs nothing, because a slanted stripe is no jump.
+// Shift in pixels from one row to the next that costs nothing, because a slanted stripe is not a
+// jump.
 constexpr double kFreePixels = 3;
-constexpr double kPixelsOfJump = 20;  // a jump longer than this costs no more
+constexpr double kPixelsOfJump = 20;  // pixels: a longer jump costs no more than this one
 
 double weakness(const RowPeaks& row, int k) {
   return 1 - static_cast<double>(row.peaks[static_cast<std::size_t>(k)].strength) /

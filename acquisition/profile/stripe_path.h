@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the stripe among each row's peaks: the strongest chain down the image with few jumps.
+// Chooses the stripe among each row's peaks: the strongest chain of peaks down the image that has
+// few jumps.
 #pragma once
 
 #include <span>
@@ -10,8 +11,8 @@
 namespace vitrine::acquisition {
 
 // Returns for each row the index of the peak that belongs to the stripe, or -1 if the row has no
-// peak. A reflection that is stronger than the stripe in a few rows is not chosen, because jumping
-// to it costs as much strength as several rows gain.
+// peak. A reflection that is stronger than the stripe in a few rows is not chosen, because the jump
+// to the reflection costs more than these rows gain.
 std::vector<int> choose_peaks(std::span<const RowPeaks> rows);
 
 }  // namespace vitrine::acquisition

@@ -7,11 +7,11 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Standard deviation of the derivative's Gaussian, relative to that of the stripe. A wider filter
-// resists speckle better; a narrower filter is less disturbed by albedo edges on the flank. A very
-// wide filter approaches the centre of mass.
+// Standard deviation of the filter (a Gaussian's derivative), as a multiple of the stripe's
+// standard deviation. A wider filter resists speckle better. A narrower filter is less disturbed by
+// albedo edges on the flank. A very wide filter approaches the centre of mass.
 constexpr double kFilterWidth = 1.4;
-constexpr int kMassSteps = 4;  // number of times that the window is recentred on the result
+constexpr int kMassSteps = 4;  // rounds in which the window is centred on the previous result
 
 std::vector<double> kernel_of(const StripeOptions& options) {
   if (options.method == StripeMethod::kBlaisRioux) return {1, 1};

@@ -29,7 +29,7 @@ class SubPixel {
 
   StripeMethod method_;
   int reach_;                   // largest distance, in pixels, between the centre and the peak
-  std::vector<double> kernel_;  // an odd function, stored at the distances 1, 2, …
+  std::vector<double> kernel_;  // values of an odd function at the distances 1, 2, … pixels
 };
 
 }  // namespace vitrine::acquisition

@@ -8,15 +8,15 @@
 
 namespace vitrine::acquisition::rig {
 
-// Time that the cable stays unplugged. It is longer than a client repeats an unacknowledged request
-// (Aravis: 3 s). A camera that came back earlier would receive the repeated trigger before a client
-// controls it. It would keep that trigger until streaming starts, and deliver each later frame one
-// trigger late.
+// Time that the cable stays unplugged. It is longer than the time during which a client repeats an
+// unanswered request (Aravis: 3 s). Otherwise the camera would come back and receive the repeated
+// trigger before a client controls it. The camera would keep that trigger until streaming starts,
+// and deliver each later frame one trigger late.
 inline constexpr std::chrono::milliseconds kUnplugged{5000};
 
 class Cable {
  public:
-  // A thread of the cable calls `pull` and `put_back` in turn. Destroying the cable cancels a
+  // The cable's own thread calls `pull` and `put_back` alternately. Destroying the cable cancels a
   // pending reconnection.
   Cable(std::function<void()> pull, std::function<void()> put_back);
 

@@ -12,7 +12,7 @@ namespace {
 struct Name {
   std::string_view name;
   FaultKind kind;
-  int step;  // number of completed motions after which the fault occurs by default
+  int step;  // default of RigFault::step
 };
 
 constexpr Name kFaults[] = {{"lost-packets", FaultKind::kLostPackets, 0},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults to simulate, and when they occur, counted in motions of the table.
+// Faults to simulate, and the time at which they occur, counted in motions of the table.
 #pragma once
 
 #include <string_view>
@@ -9,21 +9,21 @@
 
 namespace vitrine::acquisition::rig {
 
-// "That motion" is the motion of the table after which the fault occurs (RigFault::step).
+// The faults. `step` is RigFault::step: the number of the motion after which the fault occurs.
 enum class FaultKind {
-  kLostPackets,    // from then on, one frame in twenty lacks packets
-  kCameraUnplug,   // the camera is absent after that motion, and back after kUnplugged
-  kUsbUnplug,      // the board is absent after that motion, and back after kUnplugged
-  kMotorStall,     // after that motion the table does not turn until the board is restarted
-  kMissedTrigger,  // the first frame after that motion is not sent
-  kDrift,          // from then on, the laser shifts by kCreepMm with each motion
-  kLaserOut,       // from then on, the laser stays dark when switched on
-  kSecondStripe,   // from then on, the scanner's other laser lights as well
+  kLostPackets,    // after motion `step`, one frame in twenty lacks packets
+  kCameraUnplug,   // after motion `step`, the camera is absent for kUnplugged
+  kUsbUnplug,      // after motion `step`, the board is absent for kUnplugged
+  kMotorStall,     // after motion `step`, the table does not turn until the board restarts
+  kMissedTrigger,  // the first frame after motion `step` is not sent
+  kDrift,          // after motion `step`, the laser shifts by kCreepMm with each motion
+  kLaserOut,       // after motion `step`, the laser stays dark when switched on
+  kSecondStripe,   // after motion `step`, the scanner's other laser lights as well
 };
 
 struct RigFault {
   FaultKind kind = FaultKind::kDrift;
-  int step = 0;  // number of completed motions
+  int step = 0;  // number of completed motions after which the fault occurs
 };
 
 inline constexpr double kCreepMm = 0.002;
@@ -33,12 +33,12 @@ inline constexpr double kCreepMm = 0.002;
 // error lists the names.
 Expected<RigFault> parse_fault(std::string_view text);
 
-// due() returns whether a fault of that kind occurs exactly when the table has completed `turns`
-// motions. lasting() returns whether it has occurred by then.
+// due() returns whether a fault of that kind occurs right after motion number `turns`. lasting()
+// returns whether such a fault has occurred by then.
 bool due(const std::vector<RigFault>& faults, FaultKind kind, int turns);
 bool lasting(const std::vector<RigFault>& faults, FaultKind kind, int turns);
 
-// Returns the laser's shift, in mm, after `turns` motions of the table.
+// Returns the laser's shift by kDrift, in mm, after `turns` motions of the table.
 double crept(const std::vector<RigFault>& faults, int turns);
 
 }  // namespace vitrine::acquisition::rig

@@ -16,11 +16,12 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// Share of packets lost in a faulty frame: so high that no such frame arrives complete.
+// Share of the packets that a faulty frame loses. With this share, no faulty frame arrives
+// complete.
 constexpr double kLostShare = 0.05;
 
-// Returns whether the GigE Vision port is free. Aravis would share the port with another camera,
-// and each camera would receive half of the packets.
+// Returns whether the GigE Vision port of the address is free. Otherwise Aravis would share the
+// port with another camera, and each would receive half of the packets.
 bool is_free(const std::string& address) {
   sockaddr_in control{};
   control.sin_family = AF_INET;
@@ -44,11 +45,11 @@ class GigeCamera::Plugged {
     write(ARV_FAKE_CAMERA_REGISTER_SENSOR_HEIGHT, kSensorHeight);
     write(ARV_FAKE_CAMERA_REGISTER_WIDTH, kSensorWidth);
     write(ARV_FAKE_CAMERA_REGISTER_HEIGHT, kSensorHeight);
-    // This is how often the camera polls for a trigger. It is not the rate of the triggers.
+    // Hz: how often the camera polls for a trigger, not the rate of the triggers.
     arv_fake_camera_set_trigger_frequency(fake_, 500);
     arv_fake_camera_set_fill_pattern(fake_, fill, this);
   }
-  // Drops the frame that is being sent.
+  // Drops a frame whose transmission is in progress.
   ~Plugged() {
     {
       const std::lock_guard lock(mutex_);
@@ -98,7 +99,7 @@ class GigeCamera::Plugged {
 
   void lose(double share) { g_object_set(camera_, "gvsp-lost-ratio", share, nullptr); }
 
-  // Sets how the next frame is transmitted. Call it from the thread that sends.
+  // Sets how the next frame is transmitted. Only the sending thread may call it.
   void deliver(Delivery delivery) {
     const double lost = delivery == Delivery::kWhole          ? 0
                         : delivery == Delivery::kLacksPackets ? kLostShare

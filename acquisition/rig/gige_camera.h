@@ -13,12 +13,11 @@
 namespace vitrine::acquisition::rig {
 
 struct GigeCameraOptions {
-  // An address of this machine. GigE Vision allows only one camera for each address.
+  // An address of this machine. GigE Vision allows only one camera per address.
   std::string address = "127.0.0.1";
   std::string serial;
 };
 
-// How a frame is transmitted.
 enum class Delivery { kWhole, kLacksPackets, kLost };
 
 struct Exposed {
@@ -31,16 +30,17 @@ class GigeCamera {
   // Renders a triggered frame. The camera's own thread calls it.
   using Expose = std::function<Exposed(const Exposure&, const SensorRegion&)>;
 
-  // Creates the camera and plugs it in. Fails with kIo if the address is not one of this machine's
-  // or another camera uses it.
+  // Creates the camera and plugs it in. Fails with kIo if the address does not belong to this
+  // machine, or if another camera uses it.
   static Expected<std::unique_ptr<GigeCamera>> plug_in(const GigeCameraOptions& options,
                                                        Expose expose);
   ~GigeCamera();
   GigeCamera(const GigeCamera&) = delete;
   GigeCamera& operator=(const GigeCamera&) = delete;
 
-  // Simulate the camera's cable. While unplugged, the camera is silent and forgets its settings.
-  // Both functions return when the state is reached, and return at once if it already is.
+  // Simulate plugging and unplugging the camera's cable. While unplugged, the camera is silent and
+  // forgets its settings. Both functions return when the state is reached, or at once if it is
+  // reached already.
   Expected<void> plug_in();
   void unplug();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets a program act as the operator of the simulated rig. It accepts commands over a Unix socket
-// that put the target or the object on the table or report the table's state. Each command and each
-// answer is one line:
+// Lets a program act as the operator of the simulated rig, over a Unix socket. Commands put the
+// target or the object on the table, or ask for the table's state. Each command and each answer is
+// one line:
 //   target N   puts the calibration target at pose N     ok
 //   object     puts the object on the table              ok
 //   poses      returns the number of poses               ok HELD STANDING

@@ -69,7 +69,8 @@ Expected<T> number(std::string_view option, std::string_view value, T low, T hig
   return parsed;
 }
 
-// Parses the command line. Stores the value of each option, or reports the valid values.
+// Parses the command line. Stores the value of each option. If a value is invalid, reports the
+// valid values.
 class OptionParser {
  public:
   Expected<RigOptions> parse(std::span<const std::string_view> words) {

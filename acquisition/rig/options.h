@@ -22,18 +22,18 @@ struct RigOptions {
   Realism realism;
   Finish finish;
   int steps = 720;
-  // Speed of the table. 0 completes motions at once.
+  // Speed of the table. With 0, motions complete at once.
   double degrees_per_second = 0;
   std::vector<RigFault> faults;
   std::string address = "127.0.0.1", dialect = "horus", name = "rig";
-  // Names of files. Empty if not requested.
+  // Paths of files. A path is empty if its option is not given.
   std::string write_config, write_truth, write_commands, table;
   std::vector<std::string> command;
 };
 
 std::string usage();
 
-// Fails with kBadInput; the error names the option and its valid values.
+// Parses the options. Fails with kBadInput; the error names the option and its valid values.
 Expected<RigOptions> parse_options(std::span<const std::string_view> words);
 
 }  // namespace vitrine::acquisition::rig

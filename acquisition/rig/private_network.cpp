@@ -18,8 +18,8 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// Enters a new network namespace as the current user, if the system permits it. Otherwise enters a
-// new user namespace first, in which this process is root, mapped to the same user outside.
+// Enters a new network namespace. If the user may not do this, first enters a new user namespace in
+// which this process is root.
 bool leave_network() {
   if (::unshare(CLONE_NEWNET) == 0) return true;
   const auto user = ::getuid();
@@ -37,8 +37,8 @@ bool raise_loopback() {
   std::strcpy(request.ifr_name, "lo");
   request.ifr_flags = IFF_UP | IFF_RUNNING;
   if (::ioctl(socket.get(), SIOCSIFFLAGS, &request) != 0) return false;
-  // Aravis's simulated camera answers only at an address that belongs to an interface. This adds
-  // the address 127.0.0.2.
+  // Adds the address 127.0.0.2, because Aravis's simulated camera answers only at an address that
+  // belongs to an interface.
   std::strcpy(request.ifr_name, "lo:2");
   sockaddr_in second{};
   second.sin_family = AF_INET;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives each rig a network of its own. Rigs that run side by side need this because GigE Vision's
-// control port is fixed.
+// Gives each rig a network of its own. GigE Vision's control port is fixed, so rigs that run side
+// by side need separate networks.
 #pragma once
 
 #include "codec/core/expected.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the rig.json of this rig, which `vitrine` reads as for any other scanner.
+// Writes a rig.json for this simulated scanner. `vitrine` reads this file like that of any other
+// scanner.
 #pragma once
 
 #include <filesystem>

@@ -18,14 +18,15 @@ std::string camera_serial(std::uint64_t seed) {
 
 UsbBoardSettings board_settings(std::uint64_t seed, bool fabscan) {
   UsbBoardSettings settings{.is_fabscan = fabscan, .serial = camera_serial(seed)};
-  // FabScan's stepper motor, with 16 microsteps.
+  // A FabScan's stepper motor makes 3200 steps per revolution, at 16 microsteps.
   if (fabscan) settings.firmware.steps_per_turn = 3200;
   return settings;
 }
 
 namespace {
 
-// Prints an error. No caller can receive it, because the cable's own thread reconnects.
+// Prints an error of a reconnection. The cable's own thread reconnects, so no caller can receive
+// the error.
 void report(const Expected<void>& outcome) {
   if (!outcome) fmt::print(stderr, "vitrine-rig: {}\n", outcome.error().message);
 }
@@ -74,7 +75,7 @@ Expected<void> RigScanner::plug_board() {
   return board_.plug(settings);
 }
 
-// Stores the motion's goal when the motion begins, because a real table completes a motion even if
+// Saves the motion's goal when the motion begins, because a real table completes a motion even if
 // this process is killed.
 void RigScanner::keep(double goal) {
   if (!options_.table.empty()) report(write_table(options_.table, goal));

@@ -22,17 +22,18 @@
 namespace vitrine::acquisition::rig {
 
 struct RigScannerOptions {
-  // Must outlive the scanner. Null means that nothing reflects light.
+  // The object on the table, which must outlive the scanner. Null: an empty scene that reflects no
+  // light.
   const Subject* object = nullptr;
   Realism realism;
   std::vector<RigFault> faults;
   std::string camera_address = "127.0.0.1";
   bool is_fabscan = false;  // whether the board speaks FabScan instead of Horus
-  // Speed of the table. 0 completes motions at once.
+  // Speed of the table. With 0, motions complete at once.
   double degrees_per_second = 0;
   // File that keeps the table's angle. Empty: the table starts at 0 degrees.
   std::filesystem::path table;
-  // File that receives all commands to the board. Empty: none.
+  // File to which all commands to the board are written. Empty: no file.
   std::filesystem::path commands;
 };
 
@@ -62,13 +63,14 @@ class RigScanner {
   // Only the camera's thread uses this and the next two members.
   Renderer renderer_;
   std::uint64_t frames_ = 0;
-  int missed_at_ = -1;  // number of motions at the last missed trigger
+  int missed_at_ = -1;  // number of completed motions at the last missed trigger
   std::ofstream commands_;
   Stage stage_;
   std::unique_ptr<GigeCamera> camera_;
   UsbBoard board_;
   Cable camera_cable_, board_cable_;
-  // Thread that stalls the motor. The board's own thread may not call the board.
+  // Stalls the motor from a thread of its own, because the board's callbacks must not call the
+  // board.
   std::jthread brake_;
 };
 

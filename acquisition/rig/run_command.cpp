@@ -34,8 +34,8 @@ std::vector<char*> wrapped(const std::vector<std::string>& words) {
   return arguments;
 }
 
-// Becomes the command after the fork. Must not allocate, because another thread may have held any
-// lock at the time of the fork.
+// Replaces the forked child by the command. Must not allocate: at the fork, another thread may have
+// held the allocator's lock.
 [[noreturn]] void become(char* const* arguments) {
   const sigset_t set = held_signals();
   ::sigprocmask(SIG_UNBLOCK, &set, nullptr);
@@ -49,7 +49,7 @@ int exit_code(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// Waits until `child` ends and forwards signals to it.
+// Waits until `child` ends, and forwards received signals to it. Returns its exit code.
 int attend(pid_t child) {
   const sigset_t set = held_signals();
   for (;;) {
@@ -71,7 +71,8 @@ std::vector<pid_t> children() {
   return found;
 }
 
-// Ends the processes that the command left behind. They are now children of this process.
+// Ends the processes that the command left behind. The kernel has made them children of this
+// process.
 void end_leftovers() {
   sigset_t ended;
   sigemptyset(&ended);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that keeps the table's angle while no rig runs.
+// A file that keeps the table's angle between runs of the rig.
 #pragma once
 
 #include <filesystem>

@@ -14,7 +14,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// mm: a ray starts this far from its vertex, so that it does not hit the vertex's own faces.
+// mm: a ray starts this far from its vertex, so that the ray does not hit the vertex's own faces.
 constexpr double kClearance = 0.02;
 
 // Returns for each vertex the mean of its faces' normals, weighted by area. Zero for a vertex
@@ -34,8 +34,8 @@ std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
   return normals;
 }
 
-// Returns the table's angles, in degrees, at which `p` lies in the laser sheet: the solutions of
-// normal.y (x sin + y cos) = offset - normal.z z.
+// Returns the table's angles, in degrees, at which `p` lies in the laser sheet. They are the
+// solutions t of normal.y (x sin t + y cos t) = offset - normal.z z.
 std::vector<double> crossings(const Optics& optics, const Vec3& p) {
   const LaserSheet& laser = optics.laser;
   const double radius = std::hypot(p.x, p.y);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground truth for a scan: the object, and the part of its surface that can be scanned.
+// Computes the ground truth for a scan: the part of the object's surface that can be scanned.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,15 @@ namespace vitrine::acquisition::rig {
 inline constexpr double kGrazing = 85;
 
 // Returns one flag for each vertex: whether the scanner can see it. A vertex lies in the laser
-// sheet at two angles of the table. It is seen if, at one of these angles, laser source and camera
-// both have a free line of sight to it, on the same side of the surface and within kGrazing of the
-// vertex's normal (the mean of its faces' normals), and it is inside the picture. The flags do not
-// depend on a scan's number of steps, because both angles are computed exactly.
+// sheet at two angles of the table. The vertex is seen if three conditions hold at one of these
+// angles: (1) The vertex is inside the picture. (2) Laser source and camera both have a free line
+// of sight to the vertex. (3) Both lines are on the same side of the surface, within kGrazing of
+// the vertex's normal (the mean of its faces' normals). Both angles are computed exactly, so the
+// flags do not depend on a scan's number of steps.
 std::vector<std::uint8_t> seen_vertices(const TriangleMesh& mesh, const Solid& solid,
                                         const Optics& optics);
 
-// Returns a binary PLY in mm that has the flag as `property uchar seen`.
+// Returns a binary PLY file in mm with the flags as `property uchar seen`.
 std::vector<std::uint8_t> truth_ply(const TriangleMesh& mesh,
                                     const std::vector<std::uint8_t>& seen);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The firmware of a simulated board. It receives bytes and the time, and returns bytes and the
-// table's motion. It does no I/O and reads no clock: time is in seconds from any start, and never
-// decreases.
+// table's motion. It does no I/O and reads no clock: the caller passes the time in seconds, which
+// must never decrease.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@
 namespace vitrine::acquisition::rig {
 
 struct FirmwareSettings {
-  double degrees_per_second = 0;  // 0 completes motions at once
+  double degrees_per_second = 0;  // 0: motions complete at once
   // Motor steps in one revolution. The table always rests at a whole step.
   int steps_per_turn = 28800;
 };
@@ -25,9 +25,10 @@ class Firmware {
   // Simulates power-up or a rising DTR: clears all state except the table's angle.
   void restart(double now);
   void receive(std::string_view bytes, double now);
-  // Completes a motion whose end time has passed.
+  // Completes the motion if its end time has passed.
   void advance(double now);
-  // Returns the time at which advance() next has work to do, or infinity if it never has.
+  // Returns the time at which the current motion ends. Infinity if there is no motion or the motor
+  // is stalled.
   double next() const;
   // Returns and clears the board's output.
   std::string take_output();
@@ -45,8 +46,8 @@ class Firmware {
  protected:
   explicit Firmware(const FirmwareSettings& settings) : settings_(settings) {}
 
-  // Each dialect implements these: take() handles a byte, forget() clears all state, and
-  // completed() continues after a motion.
+  // Each dialect implements these functions. take() handles one byte, forget() clears all state,
+  // and completed() is called after a motion.
   virtual void take(char byte, double now) = 0;
   virtual void forget() = 0;
   virtual void completed(double now) = 0;
@@ -55,7 +56,7 @@ class Firmware {
   double degrees_per_step() const { return 360.0 / settings_.steps_per_turn; }
   // Starts a motion.
   void move_by(long steps, double now);
-  // Stops the motion and returns the number of steps it has made.
+  // Stops the motion and returns the number of steps made so far.
   long stop_moving(double now);
 
   bool is_laser_on_ = false, is_motor_on_ = false;
@@ -74,7 +75,7 @@ class Firmware {
   std::string output_;
 };
 
-// Simulates Horus 0.2, which counts steps and accepts `?`, `$G`, `$X`, and 0x18 at any time.
+// Simulates Horus 0.2. This firmware counts steps. It accepts `?`, `$G`, `$X` and 0x18 at any time.
 std::unique_ptr<Firmware> horus_firmware(const FirmwareSettings& settings);
 // Simulates FabScanPi, which echoes its input, does not count steps, and ignores input while the
 // table turns.

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kBuffer = 64;
 
-// Returns the integer after `letter` in the word that starts with it, or `otherwise`.
+// Returns the integer after `letter` in the word that starts with `letter`, or `otherwise` if there
+// is no such word.
 long number_of(const std::string& line, char letter, long otherwise) {
   for (std::size_t at = 0; at < line.size(); at = line.find(' ', at)) {
     at += line[at] == ' ' ? 1 : 0;
@@ -50,7 +51,7 @@ void FabScan::completed(double now) {
   read_waiting(now);
 }
 
-// Reads, echoes and executes waiting input until a motion starts.
+// Reads, echoes and executes buffered input until a motion starts.
 void FabScan::read_waiting(double now) {
   while (!moving() && !waiting_.empty()) {
     const char byte = waiting_.front();

@@ -12,7 +12,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr std::size_t kLongestLine = 70;  // same limit as in Grbl
+constexpr std::size_t kLongestLine = 70;  // bytes, as in Grbl
 
 using Words = std::map<char, double>;
 
@@ -49,7 +49,7 @@ class Horus final : public Firmware {
   void turn(double degrees, double now);
 
   std::string waiting_;   // bytes received while the table turns
-  long counter_ = 0;      // step counter
+  long counter_ = 0;      // steps that the board has counted
   long heading_for_ = 0;  // counter at the end of the current motion, in steps
   double feed_ = 0;       // degrees per second; 0: not set yet
   bool is_locked_ = false;
@@ -70,7 +70,7 @@ void Horus::forget() {
   say("\r\nHorus 0.2 ['$' for help]\r\n");
 }
 
-// The counter survives a soft reset. A reset during a motion raises an alarm.
+// Simulates a soft reset, which keeps the counter. A reset during a motion raises an alarm.
 void Horus::reset(double now) {
   const bool amid = moving();
   counter_ += stop_moving(now);
@@ -151,8 +151,8 @@ void Horus::obey_words(const Words& words, double now) {
   if (words.contains('X')) turn(words.at('X'), now);
 }
 
-// If the motor is off, the board counts on although the table stands still. Only a picture shows
-// the difference.
+// Counts steps even if the motor is off and the table stands still. Like a real board, the
+// simulated board cannot detect this.
 void Horus::turn(double degrees, double now) {
   heading_for_ = std::lround(std::clamp(degrees, -1e6, 1e6) / degrees_per_step());
   if (is_motor_on_)

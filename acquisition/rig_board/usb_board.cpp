@@ -26,14 +26,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long the answer "none yet" is delayed. libusb asks for finished transfers as long as the
-// device file is writable, and the simulated file always is, because it is a socket. Without the
-// delay, libusb would poll in a tight loop.
+// Seconds by which the answer "none yet" is delayed. libusb asks for finished transfers as long as
+// the device file is writable. The simulated file is a socket and therefore always writable, so
+// without the delay libusb would poll in a tight loop.
 constexpr double kHold = 0.0015;  // seconds
 // Interval in seconds at which FTDI chips send their status even if they have no data.
 constexpr double kFtdiIdle = 0.016;
 constexpr std::size_t kMostUnread = 4096;
-// How long the destructor waits for guardian processes: longer than they retry.
+// How long the destructor waits for guardian processes. Guardians retry for a shorter time.
 constexpr std::chrono::seconds kGuardians(15);
 
 constexpr char kPath[] = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-2";
@@ -52,7 +52,7 @@ UmockdevRef<T> share(T* object) {
 }
 
 // A transfer that a client has submitted. umockdev copies the kernel's struct and its buffer, and
-// writes the copies back when the transfer is reaped.
+// writes the copies back when the client fetches the finished transfer.
 struct UsbTransfer {
   UmockdevRef<UMockdevIoctlData> block, buffer;
 
@@ -69,12 +69,13 @@ struct UsbTransfer {
 // A device file that a client has open.
 struct Client {
   double last_call = 0;
-  // Holding a reference keeps the client's address from being reused.
+  // Holding this reference keeps the client's address from being reused.
   UmockdevRef<UMockdevIoctlClient> handle;
   bool is_gone = false;  // the device that this client opened has been unplugged
   std::set<unsigned> claimed;
   std::deque<UsbTransfer> reading, finished;
-  // Set while the client waits for a finished transfer, whose address will be stored in `slot`.
+  // Set while the client waits for a finished transfer. The transfer's address will be stored in
+  // `slot`.
   UmockdevRef<UMockdevIoctlClient> waiting;
   UmockdevRef<UMockdevIoctlData> slot;
   double waiting_until = 0;
@@ -87,7 +88,7 @@ class UsbBoard::Impl {
   explicit Impl(UsbBoardEvents events);
   ~Impl();
 
-  // Returns "NAME=value" of the environment variable by which a process finds the simulated bus.
+  // Returns the environment variable, as "NAME=value", by which a process finds the simulated bus.
   std::string bus() const;
   std::vector<std::string> environment() const;
   Expected<void> plug(const UsbBoardSettings& settings);
@@ -114,7 +115,8 @@ class UsbBoard::Impl {
   void reap(UMockdevIoctlClient* handle, Client& client);
   void control(const UsbTransfer& transfer);
   std::size_t answer(const Setup& setup, std::span<std::uint8_t> bytes);
-  // Advances the firmware's time, delivers the firmware's output and reports changes.
+  // Advances the firmware's time, delivers its output to clients, and reports changes of table,
+  // laser and motor.
   void settle();
   void hand_out(Client& client, double at);
   void deliver(Client& client);
@@ -136,7 +138,7 @@ class UsbBoard::Impl {
   double last_in_ = 0;
   // The table's angle at power-on, and its angle now.
   double base_ = 0, table_ = 0;
-  // The angle at which the table last rested, and the motion's target.
+  // The angle at which the table last rested, and the target of the motion.
   double stood_ = 0, goal_ = 0;
   bool is_laser_on_ = false, is_motor_on_ = false;
   std::map<UMockdevIoctlClient*, Client> clients_;
@@ -149,13 +151,14 @@ struct Completion {
   UmockdevRef<UMockdevIoctlClient> client;
   long result = 0;
   int error = 0;
-  // Set only if the call returns a finished transfer: its address, `reaped`, is stored in `slot`.
+  // Set only if the call returns a finished transfer. The address of that transfer, `reaped`, is
+  // stored in `slot`.
   UmockdevRef<UMockdevIoctlData> slot, reaped;
 };
 
-// Completes a call in umockdev's own thread, which owns `context`. If another thread does so,
-// umockdev occasionally loses the client's next call. g_main_context_invoke() does not help: while
-// the context is idle, it runs in the calling thread.
+// Completes a call in umockdev's own thread, which owns `context`. If another thread completed the
+// call, umockdev would occasionally lose the client's next call. g_main_context_invoke() is no
+// solution, because it runs in the calling thread while the context is idle.
 void complete(GMainContext* context, Completion completion) {
   const GSourceFunc run = [](gpointer data) {
     const auto& [client, result, error, slot, reaped] = *static_cast<Completion*>(data);
@@ -180,9 +183,9 @@ UmockdevRef<UMockdevIoctlData> resolve(UMockdevIoctlData* data, std::size_t offs
   return UmockdevRef<UMockdevIoctlData>(umockdev_ioctl_data_resolve(data, offset, size, nullptr));
 }
 
-// Returns whether the client's process has ended. umockdev does not notice every client that is
-// killed during a call. But a living client that holds an interface polls for transfers
-// continuously, so a silent client is dead.
+// Returns whether the client's process has ended. umockdev misses the end of some clients that are
+// killed during a call. A living client that holds an interface polls for transfers continuously,
+// so a silent client is dead.
 bool is_dead(const Client& client, double now) {
   constexpr double kSilent = 1;
   return umockdev_ioctl_client_get_connected(client.handle.get()) == FALSE ||
@@ -203,7 +206,7 @@ UsbBoard::Impl::Impl(UsbBoardEvents events) : events_(std::move(events)) {
 }
 
 UsbBoard::Impl::~Impl() {
-  // A guardian process may still have to switch the board off, and needs the bus to do so.
+  // Waits, because a guardian process may still need the bus to switch the board off.
   wait_for_users_of(bus(), kGuardians);
   unplug();
   {
@@ -244,8 +247,8 @@ Expected<void> UsbBoard::Impl::plug(const UsbBoardSettings& settings) {
       "E: BUSNUM=001\nE: DEVNUM=002\nE: MAJOR=189\nE: MINOR=1\nA: busnum=1\\n\nA: devnum=2\\n\n"
       "A: bConfigurationValue=1\\n\nA: speed=12\\n\nH: descriptors={}\n",
       kPath + 4, kNode, hex);
-  // The call handlers are installed before the device appears. Otherwise a program that opens the
-  // device in between would fail.
+  // Installs the call handlers before the device appears. Otherwise a program could open the device
+  // before the handlers exist, and would fail.
   GError* error = nullptr;
   if (umockdev_testbed_attach_ioctl(testbed_.get(), kNode, calls_.get(), &error) &&
       umockdev_testbed_add_from_string(testbed_.get(), description.c_str(), &error))
@@ -417,8 +420,8 @@ void UsbBoard::Impl::reap(UMockdevIoctlClient* handle, Client& client) {
   deliver(client);
 }
 
-// Delivers a finished transfer to a waiting client, or "none yet" if the client has waited long
-// enough.
+// Delivers a finished transfer to a waiting client. If there is none and the client has waited long
+// enough, answers "none yet".
 void UsbBoard::Impl::deliver(Client& client) {
   if (!client.waiting) return;
   if (!client.finished.empty()) {

@@ -25,19 +25,19 @@ struct UsbBoardSettings {
 
 // Functions that the board calls from its own threads, one at a time. They must not call the board.
 struct UsbBoardEvents {
-  // Receives the target of a motion. Called first.
+  // Receives the target of a motion, in degrees, before the motion starts.
   std::function<void(double degrees)> on_goal = [](double) {};
-  // Receives the table's angle during the motion.
+  // Receives the table's angle, in degrees, during the motion.
   std::function<void(double degrees)> on_move = [](double) {};
-  // Receives the table's angle at the end of the motion.
+  // Receives the table's angle, in degrees, at the end of the motion.
   std::function<void(double degrees)> on_turn = [](double) {};
   std::function<void(bool on)> on_laser = [](bool) {}, on_motor = [](bool) {};
   // Receives each command to the board.
   std::function<void(std::string_view text)> on_command = [](std::string_view) {};
 };
 
-// Restarts this program under umockdev's library if needed. Without that library, other programs
-// are not notified of devices that come or go. Call it first in main(). It returns only if no
+// Restarts this program under umockdev's library if needed. Programs without that library are not
+// notified when devices come or go. Call this function first in main(). It returns only if no
 // restart is needed or the restart fails.
 void enter_testbed(char** argv);
 
@@ -53,15 +53,15 @@ class UsbBoard {
   // Returns "NAME=value" for each environment variable that child processes need.
   std::vector<std::string> environment() const;
 
-  // Powers the board on in port 2 of bus 1 ("1-2"). The board keeps only the table's angle. A board
-  // that is already plugged in is unplugged first.
+  // Unplugs the board if it is plugged in, then powers it on in port 2 of bus 1 ("1-2"). The board
+  // keeps only the table's angle.
   Expected<void> plug(const UsbBoardSettings& settings);
   // Powers the board off: transfers in progress fail, and the device disappears.
   void unplug();
 
   // Stalls the motor until the board restarts.
   void stall();
-  // Makes the board send these bytes in addition to its own output.
+  // Makes the board send these bytes in addition to the firmware's output.
   void babble(const std::string& bytes);
 
   double table() const;  // returns the table's angle in degrees

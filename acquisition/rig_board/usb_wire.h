@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes that distinguish the simulated USB devices: descriptors, control requests and framing.
-// All functions are pure.
+// Descriptors, control requests and packet framing of the simulated USB devices. All functions are
+// pure.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,11 @@ struct Setup {
 };
 Setup setup_from(std::span<const std::uint8_t> bytes);  // `bytes`: at least 8
 
-// Returns the state of DTR that a request sets, or nullopt if it does not set DTR.
+// Returns the state of DTR that a request sets, or nullopt if the request does not set DTR.
 std::optional<bool> dtr_in(UsbTransport transport, const Setup& setup);
 
-// Removes from `pending` as many bytes as fit into one IN transfer of `room` bytes, and returns
-// that transfer.
+// Removes from `pending` as many bytes as fit into one IN transfer of `room` bytes. Returns the
+// transfer with these bytes.
 std::vector<std::uint8_t> packets(UsbTransport transport, std::string& pending, std::size_t room);
 
 }  // namespace vitrine::acquisition::rig

@@ -7,8 +7,8 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// Returns the ambient light that a pixel sees. The light comes from all directions, slightly more
-// from the camera's.
+// Returns the ambient light that a pixel sees. It comes from all directions, with slightly more
+// from the camera's direction.
 double ambient_at(const LocalOptics& optics, const PixelRays& rays, const Subject& subject, int u,
                   int v) {
   const Vec3 direction = rays.direction(optics.camera, u, v);

@@ -10,7 +10,7 @@ Vec3 unit(const Vec3& v) {
   return v * (1 / length(v));
 }
 
-// Distorts a point of the plane at distance 1 in front of the lens.
+// Applies the lens distortion to a point of the plane at distance 1 in front of the lens.
 ImagePoint distorted(const Lens& lens, double x, double y) {
   const double r2 = x * x + y * y, radial = 1 + r2 * (lens.k1 + r2 * lens.k2);
   return {x * radial + 2 * lens.p1 * x * y + lens.p2 * (r2 + 2 * x * x),

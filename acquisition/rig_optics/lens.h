@@ -18,8 +18,8 @@ struct Lens {
   Vec3 right, down, forward;  // unit vectors
 };
 
-// Places the lens at `at`, looking towards `target`. v points along the world's -z, rotated by
-// `roll` radians.
+// Places the lens at `at`, looking towards `target`. The picture's v axis points along the world's
+// -z, rotated by `roll` radians.
 void aim(Lens& lens, const Vec3& at, const Vec3& target, double roll);
 
 // Projects a point. Returns nullopt if the point is behind the lens. The result may lie outside the

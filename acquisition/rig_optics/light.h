@@ -24,33 +24,35 @@ struct LightMap {
   std::vector<float> ambient, laser;
 };
 
-// Grey level, in ambient light, of the background: a wall and the table, which is painted black.
+// Grey level of the background in ambient light. The background is a wall and the black table.
 inline constexpr float kBackground = 1.5F;
 
-// The viewing directions of the pixels. They are cached because computing them for every picture is
-// slow.
+// Caches the viewing directions of the pixels, because computing them for every picture is slow.
 class PixelRays {
  public:
   explicit PixelRays(const Lens& lens);
 
-  // Returns the unit direction in which a pixel looks, in the frame of `lens`, which may have moved
-  // since construction. `u` may be fractional.
+  // Returns the unit vector of a pixel's viewing direction, in the frame in which `lens` is given.
+  // The lens may have moved since construction. `u` is the column, which may be fractional; `v` is
+  // the row.
   Vec3 direction(const Lens& lens, double u, int v) const;
 
  private:
-  // For each pixel, the components of its direction to the right and down, each divided by the
-  // forward component. Rows have one spare column.
+  // For each pixel, the slopes of its viewing direction: right and down components, each divided by
+  // the forward component. Rows extend 8 pixels beyond both sides of the sensor, because the blur
+  // reads these pixels.
   std::vector<float> slopes_;
 };
 
-// Returns the ambient light on the subject. It is computed for every ambient_step()-th pixel and
-// linearly interpolated between.
+// Returns the ambient light on the subject. Computes the light of every ambient_step()-th pixel
+// (subject.h), and interpolates the pixels between linearly.
 std::vector<float> ambient_light(const LocalOptics& optics, const PixelRays& rays,
                                  const Subject& subject);
 
-// Returns the light of the stripe, cast by a sheet of light with the profile `look`. The surface
-// reflects it by Lambertian and blurred specular reflection. Parts hidden from camera or laser are
-// dark. Lens and pixels blur the light; speckle, a function of `key` and the pixel, modulates it.
+// Returns the light of the laser's stripe. `look` gives the stripe's cross section and the contrast
+// of its speckle, which is a function of `key` and the pixel. The surface reflects the light in
+// part diffusely (Lambertian) and in part in a blurred specular lobe. Parts hidden from the camera
+// or the laser are dark. The result includes the blur by the lens and the pixels.
 std::vector<float> stripe_light(const LocalOptics& optics, const PixelRays& rays,
                                 const Subject& subject, const LaserLook& look, std::uint64_t key);
 

@@ -19,8 +19,8 @@ struct LocalOptics {  // the optics in the subject's frame, mm
 // Converts the optics from the world to the subject's frame.
 LocalOptics optics_in(const SubjectFrame& frame, const Optics& optics);
 
-// Returns the frame of a subject on the table, turned to `degrees`. `at_zero` is the frame with the
-// table at 0 degrees.
+// Returns the frame of a subject that stands on the table, after the table has turned to `degrees`.
+// `at_zero` is the subject's frame with the table at 0 degrees.
 SubjectFrame on_table(const Optics& optics, double degrees, const SubjectFrame& at_zero = {});
 
 }  // namespace vitrine::acquisition::rig

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kSteps = 4096;
 
-// Returns quantiles of the normal distribution, computed by Newton's method, which starts at the
-// preceding value.
+// Returns quantiles of the normal distribution. Computes each by Newton's method, starting at the
+// preceding quantile.
 std::array<float, kSteps> quantiles() {
   std::array<double, kSteps> z{};
   double x = 0, squares = 0;

@@ -14,7 +14,7 @@ constexpr std::uint64_t scramble(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Combines several parts into one key; their order matters.
+// Combines several numbers into one key, which depends on their order.
 constexpr std::uint64_t key_of(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) {
   return scramble(scramble(scramble(a) ^ b) ^ c);
 }
@@ -27,7 +27,8 @@ constexpr double uniform(std::uint64_t key) {
 // Returns a number that is normally distributed with mean 0 and variance 1, truncated at 3.7.
 float normal(std::uint64_t key, std::uint64_t index);
 
-// Returns the values of normal() for ascending indices, but faster: four neighbours share 64 bits.
+// Returns the values of normal() for ascending indices. This class is faster than normal(), because
+// four neighbours share 64 random bits.
 class NormalSequence {
  public:
   NormalSequence(std::uint64_t key, std::uint64_t first);

@@ -35,7 +35,7 @@ struct Extent {
   Vec3 low, high;
 };
 
-// Returns the bounds of the points that faces use. A file may hold other points too.
+// Returns the bounds of all points that belong to a face. A file may hold other points too.
 Extent box_of(const TriangleMesh& mesh) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Extent box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Returns the point at `distance` from `centre` in the direction of that azimuth and elevation, in
+// Returns the point at `distance` from `centre`, in the direction given by azimuth and elevation in
 // degrees.
 Vec3 around(const Vec3& centre, double distance, double azimuth, double elevation) {
   const double a = azimuth * kDegree, e = elevation * kDegree;

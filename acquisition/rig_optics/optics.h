@@ -13,7 +13,7 @@ namespace vitrine::acquisition::rig {
 inline constexpr int kSensorWidth = 1300, kSensorHeight = 1030;  // pixels
 
 // A sheet of laser light: all points p with dot(normal, p) == offset, lit from `source`, which lies
-// in the sheet. The sheet misses the table's axis by a small distance, which a calibration has to
+// in the sheet. The sheet passes the table's axis at a small distance, which a calibration has to
 // find.
 struct LaserSheet {
   // A unit vector. Except for the second laser, its x is 0, so the sheet meets the table along the
@@ -27,20 +27,21 @@ struct LaserSheet {
 struct Optics {
   Lens camera;
   LaserSheet laser;
-  // Whether the table turns clockwise, seen from above, as its angle grows.
+  // Whether the table, seen from above, turns clockwise when its angle grows.
   bool is_clockwise = false;
 };
 
-// Returns the rig of a seed. Each seed gives a different rig, so a calibration fits only one rig.
-// All rigs have a 16 mm lens on pixels of 5.3 um and at most 30 degrees between laser sheet and
-// camera. All show an object of 80 mm height and 45 mm radius completely.
+// Returns the optics of a simulated scanner. Each seed gives another geometry, so a calibration
+// fits only one seed. Each scanner has a 16 mm lens, pixels of 5.3 um and at most 30 degrees
+// between laser sheet and camera. It shows an object of 80 mm height and 45 mm radius completely.
 Optics optics_of(std::uint64_t seed);
 
-// Returns the second laser, which many scanners have on the camera's other side at the same angle.
+// Returns the second laser. As in many scanners, it is on the camera's other side at the same
+// angle.
 LaserSheet other_laser(const Optics& optics);
 
-// turned() converts a point of the object, with the table at `degrees`, to the world frame.
-// turned_back() does the opposite.
+// turned() converts a point from the object's frame to the world frame, with the table at
+// `degrees`. turned_back() does the opposite.
 Vec3 turned(const Optics& optics, double degrees, const Vec3& p);
 Vec3 turned_back(const Optics& optics, double degrees, const Vec3& p);
 

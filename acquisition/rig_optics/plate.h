@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The empty turntable's top.
+// The top of the empty turntable, as a mesh.
 #pragma once
 
 #include "codec/mesh/triangle_mesh.h"

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMotorError = 0.05;  // degrees: standard deviation of the motor's error
 constexpr std::size_t kPixels = static_cast<std::size_t>(kSensorWidth) * kSensorHeight;
 
-// Returns the angle within a revolution, in millionths of a degree.
+// Returns the angle, reduced to one revolution, in millionths of a degree.
 std::uint64_t within_turn(double degrees) {
   constexpr std::int64_t kTurn = 360'000'000;
   const std::int64_t rest = std::llround(degrees * 1e6) % kTurn;

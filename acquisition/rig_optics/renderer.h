@@ -17,13 +17,14 @@ namespace vitrine::acquisition::rig {
 struct Realism {
   std::uint64_t seed = 1;
   bool is_ideal = false;  // disables noise, speckle and the motor's error
-  LaserLook look;         // its speckle is ignored if is_ideal is set
+  LaserLook look;         // if is_ideal is set, its speckle is ignored
 };
 
 inline constexpr SensorRegion kWholeSensor{0, 0, kSensorWidth, kSensorHeight};
 
 struct Shot {
-  // The number of motions in it is ignored, because it does not affect the picture.
+  // The scene's state. Its number of motions is ignored, because that number does not affect the
+  // picture.
   Setting setting;
   Exposure exposure = {};
   SensorRegion region = kWholeSensor;
@@ -33,16 +34,16 @@ struct Shot {
   bool is_laser_out = false;       // whether both lasers stay dark
 };
 
-// Returns the angle at which the motor really stops if its target is `degrees`. The error has a
-// standard deviation of 0.05 degrees and is a function of seed and angle.
+// Returns the angle, in degrees, at which the motor really stops if its target is `degrees`. The
+// error has a standard deviation of 0.05 degrees. It depends only on seed and angle.
 double reached(const Realism& realism, double degrees);
 
-// Renders the camera's pictures. Only one thread may use it. All noise is a function of seed, angle
-// within a revolution (in millionths of a degree), target and laser. So the same setting always
-// gives the same picture.
+// Renders the camera's pictures. Only one thread may use a renderer. Noise depends only on seed,
+// target, laser and the angle within a revolution (in millionths of a degree). So the same setting
+// always gives the same picture.
 class Renderer {
  public:
-  // `object` must outlive the renderer. Null means that nothing reflects light.
+  // `object` must outlive the renderer. Null: an empty scene that reflects no light.
   Renderer(const Optics& optics, const Subject* object, const Realism& realism);
 
   Frame take(const Shot& shot);
@@ -63,7 +64,7 @@ class Renderer {
   PixelRays rays_;
   std::optional<PrintedTarget> target_;  // created on first use
   std::vector<TargetPose> poses_;
-  // The scene that light_ shows. Both frames of a pair share it.
+  // The scene for which light_ was computed. Both frames of a pair use the same scene.
   std::optional<LitScene> lit_;
   LightMap light_;
 };

@@ -9,15 +9,14 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// Grey level of black, read noise in grey levels, and electrons for each grey level.
+// Grey level of black, read noise in grey levels, and number of electrons per grey level.
 constexpr float kBlack = 8, kReadNoise = 2.2F, kElectrons = 20;
 
 std::uint8_t grey(float level) {
   return static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F));
 }
 
-// Converts light to a grey level. It runs for each pixel of each frame, so it does only what is
-// necessary.
+// Converts light to a grey level. This code runs for each pixel of each frame, so speed matters.
 struct Amplifier {
   float gain, shot;
 

@@ -10,15 +10,15 @@
 
 namespace vitrine::acquisition::rig {
 
-inline constexpr double kExposureUs = 5000;  // exposure time at which a LightMap is in grey levels
+inline constexpr double kExposureUs = 5000;  // exposure at which LightMap values are grey levels
 
 struct Exposure {
   double us = kExposureUs, gain_db = 0;
 };
 
-// Exposes one frame. Black is 8 grey levels, so that noise is not clipped. Read noise is 2.2 grey
-// levels at any gain, and shot noise is that of 20 electrons for each level. `noise` is the key of
-// this picture's noise; 0 disables noise.
+// Exposes one frame. Black is at grey level 8, so that noise is not clipped. Read noise has a
+// standard deviation of 2.2 grey levels at any gain. Shot noise assumes 20 electrons per grey
+// level. `noise` is the key of this picture's noise; 0 disables noise.
 Frame expose(const LightMap& light, bool laser, const Exposure& exposure, std::uint64_t noise,
              const SensorRegion& region);
 

@@ -39,8 +39,8 @@ RTCRay ray_of(const Vec3& from, const Vec3& direction, double nearest, double fa
   return ray;
 }
 
-// Returns the albedo at a point. The paint is dark where the sum of waves along four directions is
-// high, which is 10 to 20 % of a surface.
+// Returns the albedo at a point. The paint is dark where a sum of waves in four directions is high.
+// Such patches cover 10 to 20 % of a surface.
 double albedo_at(const Vec3& p) {
   const double wave = std::sin(0.31 * p.x + 0.11 * p.y) + std::sin(0.29 * p.y - 0.13 * p.z) +
                       std::sin(0.33 * p.z + 0.12 * p.x) + std::sin(0.2 * (p.x + p.y + p.z));
@@ -56,7 +56,7 @@ Solid::Solid(const TriangleMesh& mesh, const Finish& finish)
       faces_(mesh.faces),
       finish_(finish) {
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-  // No ray may pass between two adjacent triangles.
+  // Without this flag, a ray may pass between two adjacent triangles.
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
   add_triangles(device_.get(), scene_.get(), mesh);
   rtcCommitScene(scene_.get());
@@ -74,8 +74,8 @@ std::optional<RayHit> Solid::first_hit(const Vec3& from, const Vec3& direction) 
   const Vec3& a = positions_[face[0]];
   const Vec3 across = cross(positions_[face[1]] - a, positions_[face[2]] - a);
   const Vec3 normal = across * (1 / length(across));
-  // Embree only finds the triangle. The hit point is computed here, because Embree's floats are too
-  // coarse.
+  // Uses Embree only to find the triangle. Computes the hit point here in double precision, because
+  // Embree's single precision is too coarse.
   const double slope = dot(normal, direction);
   const double t = std::abs(slope) > 1e-3 ? dot(normal, a - from) / slope : hit.ray.tfar;
   const Vec3 at = from + direction * t;

@@ -14,8 +14,8 @@
 namespace vitrine::acquisition::rig {
 
 struct Finish {
-  bool is_painted = true;  // whether patches have another albedo than the rest
-  double gloss = 0.25;     // 0 means fully matt
+  bool is_painted = true;  // whether dark patches are painted on the surface
+  double gloss = 0.25;     // share of light reflected as a highlight; 0 is fully matt
 };
 
 class Solid final : public Subject {
@@ -26,13 +26,13 @@ class Solid final : public Subject {
   bool shadowed(const RayHit& point, const Vec3& source) const override;
   void near_plane(const Vec3& normal, double offset, double half,
                   const std::function<void(ConvexPolygon)>& visit) const override;
-  // Ambient light is faint and equal in both frames of a pair, so an eighth of the resolution is
+  // Ambient light is faint and the same in both frames of a pair. So an eighth of the resolution is
   // enough.
   int ambient_step() const override { return 8; }
   double ambient_light() const override { return 14; }
 
-  // Returns whether anything blocks the straight line between two points. Obstacles within `margin`
-  // mm of its ends do not count.
+  // Returns whether the mesh blocks the straight line between two points. Ignores obstacles within
+  // `margin` mm of either end.
   bool blocked(const Vec3& from, const Vec3& to, double margin) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene before the camera: board and operator change it, the camera reads it.
+// The scene in front of the camera. Board and operator change the scene; the camera reads it.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ struct Setting {
   bool is_laser_on = false;
   bool is_motor_on = false;  // whether the motor holds or turns the table
   int turns = 0;             // number of completed motions
-  // Pose of the calibration target. nullopt: the object stands on the table instead.
+  // Pose of the calibration target on the stage. nullopt: the object is on the table instead.
   std::optional<int> target;
   bool operator==(const Setting&) const = default;
 };
@@ -21,13 +21,13 @@ struct Setting {
 // The rig's changing state: table, laser, motor and target. Several threads may use it.
 class Stage {
  public:
-  // turned_to() calls it with the number of motions, without holding the lock.
+  // turned_to() calls this function with the number of completed motions, without holding the lock.
   using OnTurn = std::function<void(int turns)>;
   explicit Stage(OnTurn on_turn = {}) : on_turn_(std::move(on_turn)) {}
 
   // Reports the table's angle during a motion.
   void passes(double degrees);
-  // Reports that the table has stopped at `degrees`, counted from its first position.
+  // Reports that the table has stopped at `degrees`, relative to the table's initial position.
   void turned_to(double degrees);
   void laser(bool on);
   void motor(bool on);

@@ -10,17 +10,18 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr double kPeak = 185;  // grey levels of a white surface facing the laser
-// The sheet is dark beyond this distance from its middle, in standard deviations of its profile.
+constexpr double kPeak = 185;  // grey level of a white surface that faces the laser
+// Distance from the middle of the sheet at which its light ends, in standard deviations of its
+// profile.
 constexpr double kReach = 3.4;
 constexpr double kShine = 40;  // exponent of the specular lobe
 // Number of rays that are cast side by side for each pixel. One is not enough, because on steep
 // parts the stripe is narrower than a pixel.
 constexpr int kSub = 3;
-constexpr int kTaps = 4;  // reach of the blur, in rays to either side
+constexpr int kTaps = 4;  // rays on either side that the blur includes
 
-// Returns the light at the distance `d`, in standard deviations, from the middle of the sheet. The
-// maximum is 1.
+// Returns the sheet's light at a distance `d`, in standard deviations, from its middle. The maximum
+// is 1.
 double profile(StripeShape shape, double d) {
   if (shape == StripeShape::kTopHat) return std::abs(d) < 1.6 ? 1 : 0;
   if (shape == StripeShape::kSkewed) d *= d < 0 ? 1.4 : 0.8;
@@ -58,7 +59,8 @@ class Stripe {
       return 0;  // the laser lights the surface from behind
     const double sheet = profile(look_.shape, d);
     if (sheet == 0 || subject_.shadowed(hit, laser.source)) return 0;
-    // The light of a fan decreases with distance. The table is at about 340 mm.
+    // The light of a fan decreases with distance. The factor is 1 at 340 mm, the approximate
+    // distance of the table.
     return kPeak * sheet * std::abs(facing) * (340 / distance) *
            (hit.albedo + hit.gloss * 3 * mirrored(hit, to_light, to_camera));
   }
@@ -69,8 +71,8 @@ class Stripe {
   const LaserLook& look_;
 };
 
-// Returns the weights that model the lens's blur of half a pixel and the pixel's width. Rays are a
-// third of a pixel apart.
+// Returns the weights of a blur along a row, at rays a third of a pixel apart. The blur combines
+// the lens (half a pixel) with the width of a pixel.
 std::array<double, 2 * kTaps + 1> blur_weights() {
   std::array<double, 2 * kTaps + 1> weights{};
   double sum = 0;
@@ -88,8 +90,8 @@ std::array<double, 2 * kTaps + 1> blur_weights() {
   return weights;
 }
 
-// Adds one run of pixels to a row, blurred along the row. The run's outermost pixels get light only
-// from the blur.
+// Adds one run of pixels to a row and blurs it along the row. The outermost pixels of the run
+// receive light from the blur only.
 void add_run(const Stripe& stripe, const PixelRun& run, int v, std::vector<double>& fine,
              float* row) {
   static const auto kWeights = blur_weights();
@@ -106,14 +108,15 @@ void add_run(const Stripe& stripe, const PixelRun& run, int v, std::vector<doubl
   }
 }
 
-// Speckle, correlated over about 1.5 pixels. It is log-normal, so never negative, and its mean is
-// 1.
+// Speckle with a mean of 1, correlated over about 1.5 pixels. Its distribution is log-normal, so it
+// is never negative.
 class Speckle {
  public:
   Speckle(double contrast, std::uint64_t key) : key_(key) {
     const double variance = std::log(1 + contrast * contrast);
     constexpr double kSpread = 1 + 2 * kSide * kSide;
-    // The blur in both directions multiplies the variance by the square of kSpread.
+    // Compensates for the blur in both directions, which multiplies the variance by the square of
+    // kSpread.
     scale_ = std::sqrt(variance) / kSpread;
     shift_ = -variance / 2;
   }
@@ -138,7 +141,7 @@ class Speckle {
   double scale_ = 0, shift_ = 0;
 };
 
-// Applies the lens's blur across rows.
+// Blurs three rows into one, to simulate the lens's blur across rows.
 void blur_down(const std::vector<float>& above, const std::vector<float>& here,
                const std::vector<float>& below, float* out) {
   constexpr float kAside = 0.107F;

@@ -7,15 +7,15 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// Width in pixels of the margin on either side, which the lens's blur lights. The margin above and
-// below is one row.
+// Width in pixels of the margin to the left and right that the lens's blur lights. The margin above
+// and below is one row.
 constexpr int kMargin = 2;
 // Length in pixels over which the distortion of a line is negligible.
 constexpr double kStraight = 10;
 
 using Rows = std::vector<std::vector<PixelRun>>;
 
-// Clips a convex polygon to the points p with side(p) >= 0.
+// Clips a convex polygon. Keeps the points p with side(p) >= 0.
 template <class Side>
 void clip(std::vector<Vec3>& polygon, std::vector<Vec3>& scratch, const Side& side) {
   scratch.clear();
@@ -28,7 +28,7 @@ void clip(std::vector<Vec3>& polygon, std::vector<Vec3>& scratch, const Side& si
   polygon.swap(scratch);
 }
 
-// Rasterises one polygon from its outline: finds the rows that the polygon touches, and its extent
+// Rasterises one polygon from its outline. Finds the rows that the polygon covers, and its extent
 // in each row.
 class PolygonRaster {
  public:
@@ -97,7 +97,8 @@ void merge(std::vector<PixelRun>& runs) {
   runs.resize(kept);
 }
 
-// Returns whether a face can show laser light: camera and laser must be on the same side of it.
+// Returns whether a face can show laser light. Camera and laser must be on the same side of the
+// face.
 bool can_show(const LocalOptics& optics, Subject::ConvexPolygon face) {
   const Vec3 normal = cross(face[1] - face[0], face[2] - face[0]);
   return dot(normal, optics.camera.at - face[0]) * dot(normal, optics.laser.source - face[0]) > 0;

@@ -13,9 +13,9 @@ struct PixelRun {
   int first = 0, last = 0;  // inclusive range of pixels in one row
 };
 
-// Returns, for each row of the sensor, ascending disjoint runs that contain the stripe. Parts of
-// the subject farther than `half` mm from the middle of the sheet are left out. Parts hidden from
-// camera or laser are not.
+// Returns, for each row of the sensor, ascending disjoint runs that contain the stripe. The runs
+// leave out parts of the subject farther than `half` mm from the middle of the sheet. They include
+// parts hidden from camera or laser.
 std::vector<std::vector<PixelRun>> stripe_band(const LocalOptics& optics, const Subject& subject,
                                                double half);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object or target of which pictures are rendered, in a frame of its own, in mm.
+// The object or calibration target in front of the simulated camera. Coordinates are in mm, in the
+// subject's own frame.
 #pragma once
 
 #include <functional>
@@ -11,7 +12,7 @@
 namespace vitrine::acquisition::rig {
 
 struct RayHit {
-  Vec3 at, normal;    // unit normal, of either orientation
+  Vec3 at, normal;    // position in mm; unit normal, which may point to either side
   double albedo = 0;  // share of light reflected, 0 to 1
   double gloss = 0;   // share of light reflected as a blurred highlight
 };
@@ -22,11 +23,13 @@ class Subject {
 
   virtual ~Subject() = default;
 
-  // Returns the first hit of a ray, or nullopt. `direction` is a unit vector.
+  // Returns the first point that a ray hits, or nullopt if there is none. `direction` is a unit
+  // vector.
   virtual std::optional<RayHit> first_hit(const Vec3& from, const Vec3& direction) const = 0;
-  // Returns whether the subject shadows its own `point` from the light at `source`.
+  // Returns whether the subject casts a shadow on its own `point`, lit from `source`.
   virtual bool shadowed(const RayHit& point, const Vec3& source) const = 0;
-  // Visits all parts with |dot(normal, p) - offset| <= half. It may visit others too.
+  // Visits all polygons that come within `half` mm of the plane dot(normal, p) == offset, and
+  // possibly others.
   virtual void near_plane(const Vec3& normal, double offset, double half,
                           const std::function<void(ConvexPolygon)>& visit) const = 0;
 

@@ -13,7 +13,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr double kDotsPerMm = 12, kPaperMargin = 4;  // mm
+constexpr double kDotsPerMm = 12, kPaperMargin = 4;  // dots per mm of the print; margin in mm
 constexpr double kInk = 0.12, kPaper = 0.7;          // albedo of ink and paper
 
 cv::Mat print(const TargetSpec& spec) {
@@ -27,11 +27,12 @@ cv::Mat print(const TargetSpec& spec) {
               image);
   const int margin = static_cast<int>(kPaperMargin * kDotsPerMm);
   cv::copyMakeBorder(image, image, margin, margin, margin, margin, cv::BORDER_CONSTANT, 255);
-  cv::GaussianBlur(image, image, {}, 0.45);  // simulates bleeding ink and the area of the pixels
+  // Simulates bleeding ink, and the averaging over the area of a pixel.
+  cv::GaussianBlur(image, image, {}, 0.45);
   return image;
 }
 
-// Returns the frame of a sheet whose front faces that azimuth and elevation and which is then
+// Returns the frame of a sheet that faces a direction, given by azimuth and elevation, and is
 // rolled in its plane. Angles are in degrees.
 SubjectFrame facing(double azimuth, double elevation, double roll, const Vec3& origin) {
   constexpr double kRadians = std::numbers::pi / 180;
@@ -46,7 +47,7 @@ TargetPose held(std::uint64_t seed, int number) {
   std::array<double, 6> by_chance{};
   for (std::size_t i = 0; i < by_chance.size(); ++i)
     by_chance[i] = uniform(key_of(seed, 0x7a49e7, 100 * static_cast<std::uint64_t>(number) + i));
-  // Depths increase in equal steps. Tilts follow a different order, so that every depth occurs with
+  // Depths increase in equal steps. Tilts follow a different order, so that each depth range gets
   // all tilts.
   const double depth = -52 + 108.0 * number / (kHeldPoses - 1) + by_chance[0];
   const double pan = 16 * (number * 7 % 5 - 2) + 5 * by_chance[1];

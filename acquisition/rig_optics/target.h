@@ -17,8 +17,8 @@ struct TargetSpec {
 
 inline constexpr const char* kTargetDictionary = "DICT_4X4_100";
 
-// The calibration target, printed on a sheet. The sheet lies in z = 0 around the origin. Its front
-// faces z, and its top points to y.
+// The calibration target, printed on a sheet. The sheet lies in the plane z = 0, centred at the
+// origin. Its front faces z, and its top points to y.
 class PrintedTarget final : public Subject {
  public:
   explicit PrintedTarget(const TargetSpec& spec = {});
@@ -28,7 +28,7 @@ class PrintedTarget final : public Subject {
   void near_plane(const Vec3& normal, double offset, double half,
                   const std::function<void(ConvexPolygon)>& visit) const override;
   int ambient_step() const override { return 1; }
-  // The light is strong, because operators switch a lamp on for pictures of the target.
+  // The ambient light is strong, because operators switch a lamp on for pictures of the target.
   double ambient_light() const override { return 75; }
 
  private:
@@ -39,18 +39,18 @@ class PrintedTarget final : public Subject {
   std::vector<float> albedo_;
 };
 
-// A pose of the target. It is fixed in the world, as on a stand beside the table, or it stands on
-// the table and turns with it.
+// A pose of the target. The target either stays fixed in the world, as on a stand beside the table,
+// or stands on the table and turns with it.
 struct TargetPose {
-  SubjectFrame frame;  // with the table at 0 degrees
+  SubjectFrame frame;  // frame with the table at 0 degrees
   bool stands_on_table = false;
 };
 
 // Numbers of poses held in the air and standing on the table. The held poses come first.
 inline constexpr int kHeldPoses = 30, kTablePoses = 1;
 
-// Returns poses such as an operator holds by hand: near and far, and tilted. The laser sheet
-// crosses all of them.
+// Returns poses like those of an operator who holds the target by hand: near, far and tilted. The
+// laser sheet crosses the target in all of them.
 std::vector<TargetPose> target_poses(std::uint64_t seed);
 
 }  // namespace vitrine::acquisition::rig

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The emergency stop of a scanner. A press, from any thread, stops the board that is open now and
-// also keeps boards opened later from being used.
+// every board opened later, until the press is released.
 #pragma once
 
 #include <algorithm>
@@ -26,14 +26,14 @@ class EmergencyStop {
     const std::lock_guard lock(mutex_);
     return presses_;
   }
-  // Releases the first `presses` presses. A later press stays in effect.
+  // Releases the first `presses` presses. Later presses stay in effect.
   void release(std::uint64_t presses) {
     const std::lock_guard lock(mutex_);
     released_ = std::max(released_, presses);
   }
 
-  // From now until guard(nullptr), a press stops `board`. An earlier press that is still in effect
-  // stops it at once.
+  // From now on, a press stops `board`, until guard(nullptr) is called. If an earlier press is
+  // still in effect, stops `board` at once.
   void guard(Board* board) {
     const std::lock_guard lock(mutex_);
     board_ = board;

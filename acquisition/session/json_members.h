@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads small JSON files that people may have written. Each error names the file, the key and the
-// expected value.
+// Reads small JSON files, which people may have written by hand. Each error names the file, the key
+// and the expected value.
 #pragma once
 
 #include <initializer_list>
@@ -16,14 +16,14 @@ namespace vitrine::acquisition {
 
 inline constexpr std::size_t kMaxJsonBytes = 1 << 20;
 
-// Parses `text` as an object; `place` is the file's name.
+// Parses `text` as a JSON object. Errors call the file `place`.
 Expected<nlohmann::json> parse_json_object(std::string_view text, const std::string& place);
 
-// Reads the members of one object. If a read fails, it returns `otherwise`. The first error is
-// kept, so one check() after a sequence of reads is enough.
+// Reads the members of one object. A read that fails returns `otherwise`. The first error is kept,
+// so one check() after a sequence of reads is enough.
 class JsonMembers {
  public:
-  // Keys that are not in `known` are errors. `object` must outlive this reader.
+  // Reports an error for each key that is not in `known`. `object` must outlive this reader.
   JsonMembers(const nlohmann::json& object, std::string place,
               std::initializer_list<std::string_view> known);
 
@@ -36,11 +36,11 @@ class JsonMembers {
   std::size_t choice(std::string_view key, std::span<const std::string_view> choices,
                      std::size_t otherwise);
   // object() returns a reader of a nested object, which is empty if the key is absent. adopt()
-  // takes over that reader's error.
+  // takes over the first error of that reader.
   JsonMembers object(std::string_view key, std::initializer_list<std::string_view> known);
   void adopt(const JsonMembers& inner);
 
-  // Reports a fault. `what` has the form "must be …".
+  // Reports an error. `what` has the form "must be …".
   void fault(std::string_view key, std::string_view what);
   Expected<void> check() const;
 

@@ -11,8 +11,8 @@ int scale_for(int width) {
   return std::max(1, (width + kPreviewWidth - 1) / kPreviewWidth);
 }
 
-// Shrinks a frame. Each pixel becomes the brightest of its square, so that a thin stripe stays
-// visible.
+// Shrinks a frame. Each pixel gets the brightest value of a square of pixels, so that a thin stripe
+// stays visible.
 std::shared_ptr<const Frame> shrink(const Frame& frame, int scale) {
   auto small = std::make_shared<Frame>();
   small->width = frame.width / scale, small->height = frame.height / scale;

@@ -10,12 +10,11 @@ namespace {
 
 constexpr int kPairTries = 3;
 
-// A picture counts as noisy if more than one in this many pixels differs from the preceding pixel
-// of the picture.
+// A picture counts as noisy if more than one pixel in this many differs from the pixel before it.
 constexpr std::size_t kNoisy = 10;
 
-// Returns whether a picture shows noise. Pictures taken with the lens cap on, over-exposed pictures
-// and pictures of ideal cameras have none.
+// Returns whether a picture shows noise. Pictures show no noise if the lens cap is on, if they are
+// over-exposed, or if the camera is an ideal simulated one.
 bool shows_noise(const Frame& frame) {
   std::size_t changes = 0;
   for (std::size_t i = 1; i < frame.pixels.size(); ++i)
@@ -43,7 +42,8 @@ LiveScanner::LiveScanner(std::unique_ptr<Camera> camera, std::unique_ptr<Board> 
 
 LiveScanner::~LiveScanner() {
   if (!board_) return;  // this object was moved from
-  // Closing the board switches laser and motor off anyway. No caller is left to receive an error.
+  // Ignores the error, because no caller is left to receive it. Closing the board switches laser
+  // and motor off in any case.
   (void)board_->laser(false);
   (void)board_->rest();
   stop_->guard(nullptr);
@@ -55,8 +55,8 @@ Expected<void> LiveScanner::find_position(double otherwise) {
   return *position ? Expected<void>{} : board_->set_position(otherwise);
 }
 
-// If the camera delivered the same picture twice, the step would have no stripe, so the capture is
-// repeated. Without noise, however, equal pictures are correct if the laser hits no surface.
+// Repeats the capture if the camera delivered the same picture twice, because the step would have
+// no stripe. Equal pictures without noise are correct, however: the laser then hits no surface.
 Expected<FramePair> LiveScanner::capture_pair() {
   auto pair = capture_once();
   for (int i = 1; i < kPairTries && pair && pair->dark == pair->lit; ++i)

@@ -12,7 +12,7 @@
 
 namespace vitrine::acquisition {
 
-// Functions that open the devices. They are called again after a device is lost.
+// Functions that open the devices. They are called again to reopen a device that was lost.
 struct ScannerDevices {
   std::function<Expected<std::unique_ptr<Camera>>()> open_camera;
   std::function<Expected<std::unique_ptr<Board>>()> open_board;
@@ -37,16 +37,17 @@ class LiveScanner {
   const BoardIdentity& board() const { return board_->identity(); }
   SensorRegion region() const { return camera_->region(); }
 
-  // Determines the table's angle. If the board does not know the angle, sets it to `otherwise`.
+  // Reads the table's angle from the board. If the board does not know the angle, sets the angle to
+  // `otherwise`.
   Expected<void> find_position(double otherwise);
   Expected<void> turn_to(double degrees) { return board_->turn_to(degrees); }
-  // Switches laser and motor off until the next motion. The board's watchdog pauses.
+  // Switches laser and motor off and pauses the board's watchdog until the next motion.
   Expected<void> rest() { return board_->rest(); }
-  // Takes a frame with the laser in its present state, which is initially off.
+  // Takes one frame and leaves the laser as it is. The laser is initially off.
   Expected<Frame> capture() { return camera_->capture(); }
-  // Takes a frame without and one with laser. If the two are identical, takes both again, up to
-  // three times in all. Noise makes any two exposures differ, so identical frames mean that the
-  // camera delivered one exposure twice.
+  // Takes one frame without laser and one with laser. If the two are identical, takes both again,
+  // up to three times in all. Noise makes any two exposures differ, so identical frames mean that
+  // the camera delivered one exposure twice.
   Expected<FramePair> capture_pair();
 
  private:

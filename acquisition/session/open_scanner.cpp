@@ -9,7 +9,9 @@ Scanner open_scanner(const ScannerConfig& config) {
   scanner.settings = config.settings;
   scanner.calibrations = config.calibrations;
   scanner.devices.open_camera = [camera = config.camera] { return open_camera(camera); };
-  scanner.devices.open_board = [board = config.board] { return open_board(board); };
+  scanner.devices.open_board = [board = config.board, power = scanner.power] {
+    return open_board(board, {.power = power});
+  };
   return scanner;
 }
 

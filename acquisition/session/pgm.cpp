@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kMaxSide = 1 << 15;
 
-// Removes a number from 1 to kMaxSide, and the character after it, from the front of `text`.
-// Returns the number, or 0 if there is none.
+// Reads a number from 1 to kMaxSide and the character `after` from the front of `text`, and removes
+// both. Returns the number, or 0 if there is none.
 int take_number(std::string_view& text, char after) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -12,7 +12,7 @@ namespace vitrine::acquisition {
 
 std::vector<std::uint8_t> to_pgm(const Frame& frame);
 
-// Parses a frame that to_pgm() wrote. Fails with kBadInput on anything else.
+// Parses a frame that to_pgm() wrote. Fails with kBadInput if the bytes are anything else.
 Expected<Frame> from_pgm(std::span<const std::uint8_t> file);
 
 }  // namespace vitrine::acquisition

@@ -15,7 +15,8 @@ Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibr
                                  const Processing& processing) {
   SurfaceOptions options = processing.surface;
   options.sampling = processing.sampling;
-  // Sampling gets no noise value, because its input is already smoothed.
+  // options.sampling gets no noise value, because surface_of() smooths the points before it samples
+  // them.
   options.noise = calibration.noise;
   return surface_of(profiles, options);
 }

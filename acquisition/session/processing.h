@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns frames into profiles, and profiles into the mesh, with the modules profile and surface.
+// Computes profiles from frames, and the mesh from profiles, with the modules profile and surface.
 #pragma once
 
 #include <span>
@@ -17,8 +17,8 @@ namespace vitrine::acquisition {
 struct Processing {
   StripeOptions stripe;
   SamplingOptions sampling;
-  // Options of the mesh. Its noise is ignored and taken from the calibration; its sampling comes
-  // from `sampling`.
+  // Options of the mesh. Two members are ignored: the noise comes from the calibration, the
+  // sampling from `sampling`.
   SurfaceOptions surface;
 };
 

@@ -16,8 +16,8 @@ namespace vitrine::acquisition {
 namespace {
 
 // The kinds of records. kUncounted is a profile in an older format without stripe counts, which can
-// still be read. A record consists of its kind, the size of its body, the body, and the first eight
-// bytes of the SHA-256 of all these.
+// still be read. A record consists of its kind, the size of its body, the body, and a checksum: the
+// first eight bytes of the SHA-256 of the preceding parts.
 constexpr std::uint32_t kUncounted = 1, kTurn = 2, kProfile = 3, kGivenUp = 4;
 constexpr std::size_t kHeadBytes = 8, kChecksumBytes = 8, kPointBytes = 3 * 8 + 4 + 1;
 constexpr std::size_t kThetaBytes = 8, kCountBytes = 5 * 8;
@@ -91,7 +91,8 @@ void give_up(JournalContents& contents, std::span<const std::uint8_t> body) {
   contents.given_up_at = static_cast<int>(in.u32());
 }
 
-// Returns the body of the next record. Empty at the end of the file or if the record is torn.
+// Returns the body of the next record. Returns an empty body at the end of the file or if the
+// record is incomplete.
 std::span<const std::uint8_t> next_record(std::span<const std::uint8_t> rest, std::uint32_t& kind) {
   ByteReader in(rest);
   kind = in.u32();
@@ -173,8 +174,8 @@ Expected<void> ProfileJournal::write(std::uint32_t kind, std::vector<std::uint8_
   out.bytes(body);
   std::vector<std::uint8_t> record = out.take();
   put_checksum(record);
-  // The record is written in one call. If the disk is full, only a part may be written, which then
-  // counts as a torn record.
+  // Writes the record in one call. If the disk is full, the call may write only a part, which later
+  // counts as an incomplete record.
   ssize_t n = 0;
   do {
     n = ::write(file_.get(), record.data(), record.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores a scan's profiles in an append-only file of records with checksums. A record torn by a
-// crash is dropped when the file is read, together with all records after it, and the steps of
-// these records are scanned again. Discarded records stay in the file but no longer count.
+// Stores a scan's profiles in an append-only file of records with checksums. If a crash has left a
+// record incomplete, the reader drops that record and all records after it. The scan then measures
+// their steps again. Profiles that give_up() discards stay in the file but no longer count.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,12 @@ inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
 
 struct JournalContents {
   std::vector<Profile> profiles;  // index: the step, from 0
-  // Index: the step. Records of kind kUncounted have only an approximate number of rows.
+  // Stripe counts; the index is the step. Records of kind kUncounted give only an approximate
+  // number of rows.
   std::vector<StripeCount> stripes;
-  std::optional<int> stands_at;  // the step in the last note_turn()
+  std::optional<int> stands_at;  // the step in the last note_turn() record
   int given_up_at = 0;           // number of steps that were done at the last give_up()
-  // Length of all whole records. The rest of the file is torn.
+  // Length of all complete records. An incomplete record may follow.
   std::size_t bytes = 0;
 };
 
@@ -33,22 +34,22 @@ JournalContents read_journal(std::span<const std::uint8_t> file);
 
 class ProfileJournal {
  public:
-  // Reads the existing records into `contents` and prepares to append after them. Creates a missing
-  // file. Fails with kIo.
+  // Reads the existing records into `contents`. Later records are appended after them. Creates a
+  // missing file. Fails with kIo.
   static Expected<ProfileJournal> open(const std::filesystem::path& path,
                                        JournalContents& contents);
 
   // Appends the profile of the next step and the counts of its stripe. The record is on disk on
-  // return. After an error (kIo, such as a full disk) the file must be opened again.
+  // return. After an error (kIo, such as a full disk) the file must be reopened.
   Expected<void> append(const Profile& profile, const StripeCount& stripe);
 
   // Keeps the first `kept` profiles and discards the others, whose steps must be measured again.
-  // `steps_done` is the number of steps done so far. The record is on disk on return.
+  // `steps_done` is the number of steps done before this call. The record is on disk on return.
   Expected<void> give_up(int kept, int steps_done);
 
-  // Records that the table stands at `step` or is moving there. (A motion in progress completes
-  // even if this process ends.) The record survives the end of this process at once. It survives a
-  // power failure only after the next profile is written.
+  // Records that the table stands at `step` or moves there. (The motion completes even if this
+  // process ends.) The record survives the end of this process at once. It survives a power failure
+  // only after the next profile is written.
   Expected<void> note_turn(int step);
 
  private:

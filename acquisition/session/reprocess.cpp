@@ -11,8 +11,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Returns the calibration with that number: the scan's own, or another one of the same camera and
-// region.
+// Returns the calibration with that number: the scan's own one, or another one of the same camera
+// and region.
 Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::path& calibrations,
                              int number) {
   if (number == record.calibration) return calibration_of(record, calibrations);
@@ -23,7 +23,7 @@ Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::pa
   return calibration;
 }
 
-// Fails if a scan that is done lacks steps.
+// Fails if the scan is done but its journal lacks steps.
 Expected<void> check_journal(const ScanFolder& folder, int steps_there, int steps) {
   if (folder.state().state != ScanState::kDone || steps_there == steps) return {};
   return fail(ErrorCode::kBadInput,
@@ -32,7 +32,8 @@ Expected<void> check_journal(const ScanFolder& folder, int steps_there, int step
                           folder.journal().string(), steps_there, steps));
 }
 
-// Returns the name of the first option that changes the points, or null if none does.
+// Returns the name of the first option that requires new points from the pictures. Returns null if
+// no option does.
 const char* other_points(const ScanRequest& scan, int own, const ReprocessOptions& options) {
   if (options.calibration != 0 && options.calibration != own) return "another calibration";
   return options.processing.stripe == scan.processing.stripe ? nullptr : "another stripe method";

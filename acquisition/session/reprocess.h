@@ -12,17 +12,18 @@ namespace vitrine::acquisition {
 struct ReprocessOptions {
   Processing processing;
   int calibration = 0;  // number of the calibration; 0: the scan's own
-  // Receives the share of the pictures done, 0 to 1. May be empty.
+  // Receives the share of the pictures processed so far, 0 to 1. May be empty.
   std::function<void(double)> progress;
 };
 
 struct Reprocessed : ScannedSurface {
-  int steps = 0;  // number of the scan's steps that the mesh was built from
+  int steps = 0;  // number of steps from which the mesh was built
   StripeCount stripe;
 };
 
-// Fails with kState if the scan's pictures are needed but were not kept. They are needed for
-// another calibration than the scan's own, whose number is `own`, and for another stripe method.
+// Checks whether the scan's pictures are needed. Fails with kState if they are needed but were not
+// kept. Pictures are needed for another stripe method, or for another calibration than the scan's
+// own, whose number is `own`.
 Expected<void> check_pictures(const ScanRequest& scan, int own, const ReprocessOptions& options);
 
 // Rebuilds the mesh from all steps on disk, even those of a cancelled scan. Fails for the same

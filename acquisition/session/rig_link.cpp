@@ -13,7 +13,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Milliseconds to wait for an answer. The rig may be rendering.
+// Milliseconds to wait for an answer. It is long, because the rig may be rendering a picture.
 constexpr int kAnswerTimeout = 30'000;
 constexpr std::size_t kMaxLine = 1'000;
 

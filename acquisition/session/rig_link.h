@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks the simulated rig to act as the operator and to put the calibration target or the object on
-// the table. Sends each command as one line over the rig's Unix socket and reads one line back.
+// Asks the simulated rig to act as the operator: to put the calibration target or the object on the
+// table. Sends each command as one line over the rig's Unix socket and reads one line back.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ class RigLink {
   // Connects to the rig. Fails with kIo if no rig listens on that socket.
   static Expected<RigLink> connect(const std::filesystem::path& socket);
 
-  // Returns the numbers of the target's poses: those held in front of the table, then those
-  // standing on it.
+  // Returns the number of the target's poses. The poses held in front of the table come first, then
+  // those standing on the table.
   Expected<int> poses();
   Expected<void> place_target(int pose);
   Expected<void> place_object();

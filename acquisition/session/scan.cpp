@@ -10,7 +10,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Share of the steps in the total progress. The rest belongs to the mesh.
+// Share of the scanning steps in the total progress. Making the mesh is the rest.
 constexpr double kScanningShare = 0.97;
 
 double steady_seconds() {
@@ -73,7 +73,7 @@ Scan::Scan(Scanner scanner, const ScanRequest& request, ScanFolder folder, ScanS
 }
 
 Scan::~Scan() {
-  (void)pause();  // pause() fails if the scan does not run, which needs no handling
+  (void)pause();  // fails if the scan is not running, which is fine here
   if (thread_.joinable()) thread_.join();
 }
 
@@ -84,7 +84,7 @@ Expected<void> Scan::resume() try {
   requested_ = RequestedAction::kRun;
   stop_.release(stop_.presses());
   if (thread_.joinable())
-    thread_.join();  // the thread has ended: setting the state was its last action
+    thread_.join();  // returns at once, because the thread's last action was to set the state
   thread_ = std::jthread([this] { work(); });
   status_.error.reset();
   surface_.reset();
@@ -198,14 +198,14 @@ void Scan::work() {
     surface_ = std::move(*outcome);
   }
   status_.error = end.error;
-  // The state only tells a later process how the scan ended. If it cannot be written, the scan
+  // Ignores an error. The state only tells a later process how the scan ended. Without it, the scan
   // counts as resumable.
   (void)folder_.write_state(end);
   enter(end.state);
 }
 
 // Runs the scan and makes the mesh. Returns null if the scan was interrupted. An exception, here or
-// in the measuring thread, ends only this scan.
+// in the measuring thread, makes this scan fail but does not end the process.
 Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() try {
   ScanRun run({.scanner = scanner_,
                .request = request_,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scan that any thread can start, watch, pause, resume and cancel. It is stored in a folder
-// (scan_folder.h). If this process ends, a later process can resume the scan and gets the same mesh
+// (scan_folder.h). If this process ends, a later process can resume the scan. The mesh is the same
 // as without the interruption.
 #pragma once
 
@@ -33,9 +33,9 @@ class Scan : private ScanWatch {
                                                 ScanSettings settings = {});
   ~Scan() override;  // pauses a running scan
 
-  // Starts an idle scan, resumes a paused or failed one, or makes the mesh of a finished scan
-  // again. resume(), pause() and cancel() return at once. They fail with kState if the scan's state
-  // does not allow the call, and with kIo if no thread can be started.
+  // resume() starts an idle scan, continues a paused or failed scan, or makes the mesh of a
+  // finished scan again. resume(), pause() and cancel() return at once. They fail with kState if
+  // the scan's state does not allow the call, and with kIo if no thread can be started.
   Expected<void> resume();
   Expected<void> pause();   // takes effect after the current step
   Expected<void> cancel();  // measured steps stay in the folder
@@ -44,13 +44,14 @@ class Scan : private ScanWatch {
   void emergency_stop() noexcept;
 
   ScanStatus status() const;
-  // Waits until the scan is no longer checking, scanning or meshing, but not longer than `at_most`.
+  // Waits until the scan is not checking, scanning or meshing, but no longer than `at_most`.
   // Returns the status.
   ScanStatus wait(std::chrono::milliseconds at_most) const;
   const LivePreview& preview() const { return preview_; }
   const ScanFolder& folder() const { return folder_; }
 
-  // Returns the mesh, from the end of the scan until the scan is resumed. Null at other times.
+  // Returns the mesh. Null before the scan is done, and after resume() until the scan is done
+  // again.
   std::shared_ptr<const ScannedSurface> surface() const;
 
  private:

@@ -29,7 +29,7 @@ Expected<Calibration> calibration_of(const ScanRecord& record,
                                      const std::filesystem::path& calibrations) {
   auto calibration = CalibrationStore(calibrations).load(record.calibration);
   if (!calibration) return calibration;
-  const bool is_same = record.calibration_digest.empty() ||  // an unknown digest cannot be compared
+  const bool is_same = record.calibration_digest.empty() ||  // without a digest, assume the same
                        record.calibration_digest == digest_of(*calibration);
   if (is_same && fits(*calibration, record.camera, record.settings.region)) return calibration;
   return fail(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ensures that a scan is completed with the calibration it was started with.
+// Ensures that a scan is completed with the same calibration with which it was started.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,14 @@ namespace vitrine::acquisition {
 // with the calibration's number.
 std::string digest_of(const Calibration& calibration);
 
-// Fails with kBadInput if the calibration is not for that camera and region.
+// Checks the calibration. Fails with kBadInput if the calibration is for another camera or region.
 Expected<void> fits(const Calibration& calibration, const std::string& camera,
                     const SensorRegion& region);
 
 // Loads the calibration that `record` names from the folder `calibrations`. Fails with kIo if the
-// calibration is missing. Fails with kBadInput if it is for another camera or region, or differs
-// from the one with which the scan started. The latter happens if the folder is another one or the
-// file was edited.
+// calibration is missing. Fails with kBadInput if the calibration is for another camera or region.
+// Also fails with kBadInput if the calibration differs from the one with which the scan started,
+// because the file was edited or comes from another folder.
 Expected<Calibration> calibration_of(const ScanRecord& record,
                                      const std::filesystem::path& calibrations);
 

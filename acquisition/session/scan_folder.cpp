@@ -46,7 +46,7 @@ Expected<Frame> read_frame(const fs::path& path) {
   });
 }
 
-// Returns the error that another scan uses the folder.
+// Returns the error that the folder already holds another scan.
 Error in_the_way(const ScanFolder& there) {
   const ScanState state = there.state().state;
   const bool has_ended = state == ScanState::kDone || state == ScanState::kCancelled;
@@ -103,7 +103,7 @@ Expected<JournalContents> ScanFolder::measured() const {
 }
 
 void ScanFolder::remove() const {
-  std::error_code ignored;  // a leftover file is harmless
+  std::error_code ignored;  // a file that cannot be removed is harmless
   for (const char* name : {kRecordName, kJournalName, kStateName})
     fs::remove(path_ / name, ignored);
   fs::remove(path_, ignored);

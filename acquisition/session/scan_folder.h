@@ -41,7 +41,7 @@ class ScanFolder {
   StoredState state() const;
   Expected<void> write_state(const StoredState& state) const;
 
-  // Removes the scan except its pictures. Then removes the folder if it is empty.
+  // Removes the scan, but not its pictures. Then removes the folder if it is empty.
   void remove() const;
 
   Expected<void> write_frames(int step, const FramePair& frames) const;

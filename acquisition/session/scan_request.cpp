@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-// Even the longest capture, with all its repeated requests, must not trigger the watchdog.
+// The longest possible capture, with all its repeated requests, must end before the watchdog acts.
 static_assert(std::chrono::duration<double, std::micro>(longest_capture(kMostExposure)) <
               kWatchdog);
 

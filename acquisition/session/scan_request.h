@@ -17,7 +17,7 @@ inline constexpr int kMostCalibration = 1'000'000'000;       // largest number o
 inline constexpr double kMostExposure = 1e6;                 // microseconds
 inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // degrees, mm
 
-// These names are in the order of SamplingMethod and StripeMethod.
+// Names of the values of SamplingMethod and StripeMethod, in the order of the enumerations.
 inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant", "paper",
                                                                    "adaptive"};
 inline constexpr std::array<std::string_view, 3> kStripeNames = {"derivative-of-gaussian",
@@ -30,22 +30,22 @@ struct ScanRequest {
   std::optional<double> exposure_us;  // nullopt: the scanner's default
   // Number of the calibration. 0: the newest for that camera and region.
   int calibration = 0;
-  // Keeps the pictures, so that the stripe can be found again with other methods.
+  // Whether to keep the pictures, so that the stripe can be found again with other methods.
   bool keep_frames = false;
   Processing processing;
 };
 
 Expected<void> check(const ScanRequest& request);
 
-// Everything that another process needs to resume the scan. It is written once and never changed.
+// The data that another process needs to resume the scan. It is written once and never changed.
 struct ScanRecord {
   ScanRequest request;
-  std::string created;             // 2026-11-23T08:00:00Z
+  std::string created;             // UTC, such as 2026-11-23T08:00:00Z
   std::string scanner;             // name of the scanner
   std::string camera;              // serial number
   CameraSettings settings;         // the settings that the scan used
   std::string board;               // dialect and serial number of the board
-  int calibration = 0;             // calibration number
+  int calibration = 0;             // number of the calibration
   std::string calibration_digest;  // digest_of() the calibration; empty if unknown
 };
 
@@ -53,7 +53,7 @@ inline double angle_of(const ScanRequest& request, int step) {
   return 360.0 * step / request.steps;
 }
 
-// Write and read the format of scan.json. Errors call the file `place`.
+// Write and read scan.json. Errors call the file `place`.
 std::string to_json_text(const ScanRecord& record);
 Expected<ScanRecord> scan_record_of(std::string_view text, const std::string& place);
 

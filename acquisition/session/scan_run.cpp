@@ -59,7 +59,8 @@ Expected<void> ScanRun::open_folder() {
   Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
     judged = stripe_watch_->add(stripes_[step], step + 1);
-  // Fails only if an earlier process crashed after storing the last step and before checking it.
+  // This judgement fails only if an earlier process crashed after storing the last step and before
+  // judging it.
   if (!judged) return refuse(judged.error());
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
@@ -144,7 +145,7 @@ Expected<void> ScanRun::identify(const LiveScanner& scanner) {
   return {};
 }
 
-// Checks whether the scanner sees the object. At one angle an object may miss the laser plane, so
+// Checks whether the scanner sees the object. An object may miss the laser plane at one angle, so
 // up to four angles are tried.
 ScanRun::StepOutcome ScanRun::look(LiveScanner& scanner) {
   const int steps = means_.request.steps;
@@ -178,9 +179,9 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
   return {};
 }
 
-// Turns the table to a step. The step is recorded first, because a table completes its motion even
-// if this process is killed. If the motion fails, the table has moved by an unknown part of it. The
-// best estimate is then the position before the motion.
+// Turns the table to a step. Records the step first, because a table completes its motion even if
+// this process is killed. If the motion fails, the table stands somewhere between the two
+// positions. The position before the motion is then recorded as the best estimate.
 ScanRun::StepOutcome ScanRun::turn(LiveScanner& scanner, int step) {
   if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
   const auto turned = scanner.turn_to(angle_of(means_.request, step));
@@ -233,7 +234,7 @@ Expected<void> ScanRun::settle() {
 }
 
 // Discards the steps that the stripe watch judged together, and returns `judgement`. A resumed scan
-// measures these steps again, because the laser may work again by then.
+// measures these steps again.
 Expected<void> ScanRun::refuse(const Error& judgement) {
   const int kept = steps_done() - stripe_watch_->span();
   if (auto noted = journal_->give_up(kept, steps_done()); !noted) return noted;

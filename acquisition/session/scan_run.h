@@ -25,10 +25,11 @@ namespace vitrine::acquisition {
 // How often and how long a scan retries after it has lost a device.
 struct RetryLimits {
   int tries = 60;  // number of attempts to resume without completing a step in between
-  // Number of attempts to start. The first may fail because a killed process still holds a device.
+  // Number of attempts to start. The first attempt may fail because a killed process still holds a
+  // device.
   int first_tries = 10;
-  // Number of attempts, in all, to turn a stalled table. A jam does not clear itself, and each
-  // attempt makes the table's angle less certain.
+  // Number of attempts to turn a stalled table, in the whole run. A jam does not clear itself, and
+  // each attempt makes the table's angle less certain.
   int turns = 2;
   std::chrono::milliseconds between{500};
 };
@@ -48,7 +49,7 @@ class ScanWatch {
 
 class ScanRun {
  public:
-  // The inputs of a run. All members must outlive the run.
+  // The inputs of a run. Every member must outlive the run.
   struct Means {
     const Scanner& scanner;
     const ScanRequest& request;
@@ -62,15 +63,16 @@ class ScanRun {
   explicit ScanRun(const Means& means) : means_(means) {}
 
   // Scans until all steps are on disk or the watch interrupts the run. Laser and motor are off on
-  // return. Fails with the error that stopped the scan; a later run resumes there.
+  // return. Fails with the error that stopped the scan. A later run continues after the steps on
+  // disk.
   Expected<void> run();
 
   std::vector<Profile> take_profiles() { return std::move(profiles_); }
   const Calibration& calibration() const { return calibration_; }
 
  private:
-  // The part that failed. Reopening the devices helps if one was lost, but rarely if the table does
-  // not turn.
+  // The kind of failure. Reopening the devices helps if a device was lost, but rarely if the table
+  // does not turn.
   enum class Cause { kScan, kDevice, kMotion };
   struct Setback {
     Error error;
@@ -78,7 +80,7 @@ class ScanRun {
   };
   using StepOutcome = tl::expected<void, Setback>;
 
-  // Number of setbacks since the last completed step.
+  // Number of failed attempts since the last completed step.
   struct Tries {
     int all = 0, turns = 0;
   };
@@ -109,12 +111,12 @@ class ScanRun {
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
   std::optional<StripeWatch> stripe_watch_;
-  std::vector<StripeCount> stripes_;  // the counts for each of profiles_
+  std::vector<StripeCount> stripes_;  // the counts that belong to profiles_
   StripeCount seen_;                  // sum of stripes_
-  // The result for step profiles_.size(). The other thread owns it until pending_ completes.
+  // The result for step profiles_.size(). It belongs to the other thread until pending_ completes.
   Measured fresh_;
   std::future<Expected<void>> pending_;
-  // The step to which the table was last turned. The journal records it too.
+  // The step to which the table was last turned. The journal records this step too.
   int stands_at_ = 0;
   bool is_checked_ = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state and progress of a scan, for display.
+// The state and progress of a scan, for display to users.
 #pragma once
 
 #include <optional>
@@ -25,11 +25,11 @@ std::optional<ScanState> state_of(std::string_view name);
 
 struct ScanStatus {
   ScanState state = ScanState::kIdle;
-  int steps = 0, steps_done = 0;       // a step is done when its profile is on disk
+  int steps = 0, steps_done = 0;       // a step counts as done when its profile is on disk
   StripeCount stripe;                  // sum over all done steps
   double progress = 0;                 // 0 to 1
   std::optional<double> seconds_left;  // nullopt until it can be estimated
-  // The condition for which the scan waits, such as a lost camera. Usually empty.
+  // The reason why the scan waits, such as a lost camera. Usually empty.
   std::string note;
   std::optional<Error> error;  // the cause, if the scan failed
 };

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a scanner that a scan needs: how to open its devices, how to set its camera, and the
-// folder of its calibrations.
+// The parts of a scanner that a scan needs: functions that open the devices, the camera's settings,
+// and the folder of the calibrations.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
+#include "acquisition/device/power_record.h"
 #include "acquisition/session/live_scanner.h"
 
 namespace vitrine::acquisition {
@@ -15,6 +17,8 @@ struct Scanner {
   ScannerDevices devices;
   CameraSettings settings;
   std::filesystem::path calibrations;  // folder of the calibrations
+  // The state of laser and motor of the board that `devices` opens.
+  std::shared_ptr<PowerRecord> power = std::make_shared<PowerRecord>();
 };
 
 }  // namespace vitrine::acquisition

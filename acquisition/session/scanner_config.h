@@ -20,12 +20,12 @@ struct ScannerConfig {
   CharucoTarget target;
   int steps = 720;                     // default number of steps of a scan
   std::filesystem::path calibrations;  // folder of the calibrations
-  // Socket of the simulated rig. Empty: an operator places the target by hand.
+  // Socket of the simulated rig. Empty: a human operator places the target.
   std::filesystem::path rig;
 };
 
-// Read the configuration. Relative paths start at the file's folder. They fail with kIo or
-// kBadInput; the error gives file, key and expected value.
+// Read the configuration. Relative paths start at the file's folder. Both fail with kIo or
+// kBadInput; the error names file, key and expected value.
 Expected<ScannerConfig> read_scanner_config(const std::filesystem::path& path);
 Expected<ScannerConfig> parse_scanner_config(std::string_view text,
                                              const std::filesystem::path& path);

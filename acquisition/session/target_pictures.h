@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the pictures for a calibration. They show the target in many placements, each without and
-// with the laser's line on it.
+// Takes the pictures for a calibration. They show the target in many placements, both without laser
+// and with the laser's line on the target.
 #pragma once
 
 #include <functional>
@@ -13,17 +13,17 @@ namespace vitrine::acquisition {
 
 // Moves the target to placement `number`, counted from 0, or asks the operator to do so. Returns
 // false if there are no more placements. The target may stand on the table and turn with it, or be
-// held in front of it.
+// held in front of the table.
 using PlaceTarget = std::function<Expected<bool>(int number)>;
 
 struct TargetPictureOptions {
   double largest_angle = 50,
          angle_step = 5;  // degrees by which the table turns, in either direction
-  // Called after each placement. `seen` is a message for the operator. It states how many pictures
-  // show the target so far. If no picture of this placement shows the target, it also states why.
-  // May be empty.
+  // Called after each placement; may be empty. `seen` is a message for the operator. It says how
+  // many pictures show the target so far. If no picture of this placement shows the target, it also
+  // says why.
   std::function<void(const std::string& seen)> progress = {};
-  // Polled before each picture; may be empty.
+  // Called before each picture. If it returns true, picture_target() stops. May be empty.
   std::function<bool()> is_interrupted = {};
 };
 

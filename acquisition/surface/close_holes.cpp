@@ -57,8 +57,8 @@ class Loop {
     return std::max({size.x, size.y, size.z});
   }
 
-  // Returns whether the loop is the rim of a hole. Faces are counter-clockwise, so the rim of a
-  // piece runs with them and the rim of a hole against them.
+  // Returns whether the loop is the rim of a hole. Faces are counter-clockwise. So the outer rim of
+  // a piece of surface is counter-clockwise too, and the rim of a hole is clockwise.
   bool is_hole() const {
     Vec3 area, normal;
     for (const BoundaryEdge& e : edges_) {
@@ -76,8 +76,8 @@ class Loop {
   Vec3 middle_;
 };
 
-// Returns the boundary loops. A vertex at which several loops meet is left out, because the loop's
-// next edge is ambiguous there.
+// Returns the boundary loops. Leaves out vertices at which several loops meet, because the next
+// edge of the loop is ambiguous there.
 std::vector<Loop> loops_of(const TriangleMesh& mesh) {
   const std::vector<BoundaryEdge> edges = boundary_of(mesh);
   const auto leaving = [&](std::uint32_t v) {

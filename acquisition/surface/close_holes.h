@@ -8,9 +8,9 @@
 
 namespace vitrine::acquisition {
 
-// Closes each hole whose boundary loop fits into a box of `largest` mm: adds a vertex in its middle
-// and a fan of faces. Boundary loops around a piece of surface are not holes. No edge of `mesh` may
-// have more than two faces. Returns the number of holes closed. O(n log n).
+// Closes each hole whose boundary loop fits into a box of `largest` mm, by a vertex in the middle
+// and a fan of faces. The outer rim of a piece of surface is not a hole. No edge of `mesh` may have
+// more than two faces. Returns the number of holes closed. O(n log n).
 std::uint64_t close_holes(TriangleMesh& mesh, double largest);
 
 }  // namespace vitrine::acquisition

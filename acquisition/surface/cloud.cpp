@@ -8,14 +8,14 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kDepths = 4;  // multiples of s_max: [WLL] eq. 5
-// The distance between steps is measured at the radius within which this share of the points lies.
+constexpr double kDepths = 4;  // largest depth difference, in multiples of s_max ([WLL] eq. 5)
+// Share of the points that lie within the radius at which the distance between steps is measured.
 constexpr double kOutermost = .95;
 
-constexpr double kLeastHeight = 1e-3;  // mm: rows of real cameras are farther apart than this
+constexpr double kLeastHeight = 1e-3;  // mm: less than the distance between rows of a real camera
 
-// Sampled profiles have irregular rows. In them, only points farther apart than this multiple of
-// the median number of rows have a gap between them.
+// In sampled profiles, the distances between rows vary. Two consecutive points then have a gap
+// between them only if they are farther apart than this multiple of the median number of rows.
 constexpr int kSampledGap = 4;
 
 template <class T>

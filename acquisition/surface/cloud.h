@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of all strands, and the distances that decide which points are neighbours.
+// The points of all strands, and the distances up to which points are neighbours.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace vitrine::acquisition {
 
-// The strands of a scan by ascending theta over one revolution. All their points are numbered in
-// one sequence, and strand k has the points [first[k], first[k + 1]). Strands of equal theta form a
-// step, and step s has the strands [steps[s], steps[s + 1]).
+// The strands of a scan, sorted by theta over one revolution. All their points are numbered in one
+// sequence: strand k has the points [first[k], first[k + 1]). Strands of equal theta form a step:
+// step s has the strands [steps[s], steps[s + 1]).
 struct Cloud {
   std::vector<Profile> strands;
   std::vector<std::size_t> first, steps;
@@ -32,20 +32,20 @@ struct Cloud {
 // Returns the index in `strands` at which each step begins, followed by the number of strands.
 std::vector<std::size_t> steps_of(std::span<const Profile> strands);
 
-// Returns the strands with only those points that are flagged in `kept`.
+// Returns the strands without the points whose flag in `kept` is false.
 std::vector<Profile> keep(const Cloud& cloud, const std::vector<bool>& kept);
 
-// Distances and angles that hold for the whole scan.
+// Distances and angles that are the same for the whole scan.
 struct Spacing {
   // Median number of rows between consecutive points of a strand.
   int rows = 1;
   // Consecutive points at most this many rows apart have no gap between them.
   int gap = 1;
   double row_height = 1;  // mm: median height of a row
-  // s_max of [WLL] eq. 5, in mm: the spacing of points along strands or between steps, whichever is
-  // larger.
+  // s_max of [WLL] eq. 5, in mm: the larger of the spacing along strands and the spacing between
+  // steps.
   double largest = 0;
-  // 4 s_max, in mm. Closer points are joined by [WLL] eq. 5 at any angle.
+  // 4 s_max, in mm. [WLL] eq. 5 joins points closer than this at any angle.
   double near = 0;
   // Strands whose points are farther apart than this, in mm, are not joined.
   double bridge = 0;
@@ -54,9 +54,9 @@ struct Spacing {
 
 Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options);
 
-// Returns whether [WLL] eq. 5 and 6 join two points. They join points whose depths rho differ by
-// less than 4 s_max; `depth` is that difference. They also join points if the surface between them
-// is seen at an angle phi < phi_max. cos(phi) is the share of their `distance` that is
+// Returns whether [WLL] eq. 5 or 6 joins two points. Equation 5 joins points whose depths rho
+// differ by less than 4 s_max; `depth` is that difference. Equation 6 joins points if the surface
+// between them is seen at an angle phi < phi_max. cos(phi) is the share of their `distance` that is
 // perpendicular to the depth.
 bool are_joined(double depth, double distance, const Spacing& spacing);
 

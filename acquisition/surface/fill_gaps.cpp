@@ -19,8 +19,9 @@ class Course {
   Course(const std::vector<ProfilePoint>& points, const Spacing& spacing)
       : points_(points), spacing_(spacing) {}
 
-  // Returns whether the surface continues from the point before `i` to point `i`. If rho changes
-  // its sign, the points are on different sides of the object.
+  // Returns whether the surface continues from the point before `i` to point `i`. If the two rho
+  // have different signs, the points lie on different sides of the object, and the surface does not
+  // continue.
   bool goes_on(std::size_t i) const {
     const TablePoint &a = points_[i - 1].at, &b = points_[i].at;
     if (!same_side(a, b)) return false;
@@ -29,8 +30,9 @@ class Course {
   }
 
  private:
-  // Returns whether the step to `i` resembles the step to `other`, which is its neighbour along the
-  // strand. On a surface at a grazing angle, the depth changes much from row to row, but steadily.
+  // Returns whether the depth changes steadily at point `i`. The change from the point before `i`
+  // to `i` must resemble the change from the point before `other` to `other`. On a surface at a
+  // grazing angle, these changes are large but similar.
   bool is_steady(std::size_t i, std::size_t other) const {
     if (other == 0 || other >= points_.size()) return false;
     const ProfilePoint &a = points_[i - 1], &b = points_[i], &c = points_[other - 1],

@@ -7,14 +7,14 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Computes distances from one strand to points that arrive by ascending row.
+// Computes distances from one strand to points, which must come in ascending order of rows.
 class Distance {
  public:
   Distance(const Cloud& cloud, std::size_t strand)
-      : points_(cloud.strands[strand].points), at_(&cloud.positions[cloud.first[strand]]) {}
+      : points_(cloud.strands[strand].points), at_(cloud.positions.data() + cloud.first[strand]) {}
 
-  // Returns the squared distance from `p` to the strand at `row`. Between two joined points, it is
-  // measured to the position interpolated at that row.
+  // Returns the squared distance from `p` to the strand's position at `row`. Between two joined
+  // points, that position is interpolated.
   double to(const Vec3& p, int row) {
     while (below_ < points_.size() && points_[below_].row < row)
       ++below_;
@@ -33,7 +33,7 @@ class Distance {
  private:
   const std::vector<ProfilePoint>& points_;
   const Vec3* at_;
-  std::size_t below_ = 0;  // index of the first point that is not above the current row
+  std::size_t below_ = 0;  // index of the first point at or below the current row
 };
 
 }  // namespace

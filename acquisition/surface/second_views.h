@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drops points beyond the axis that were seen better half a revolution earlier or later.
+// Drops points beyond the axis if the scan also saw them half a revolution earlier or later, when
+// the view was better.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,9 @@
 
 namespace vitrine::acquisition {
 
-// Returns one flag for each point. It is false for a point with negative rho if a point with
-// positive rho is closer than `reach` mm, because the two sheets would not form one surface. It is
-// true for all other points. O(n log n).
+// Returns one flag for each point: whether to keep the point. A point with negative rho is dropped
+// if a point with positive rho is closer than `reach` mm, because the two sheets would not form one
+// surface. O(n log n).
 std::vector<bool> first_views(const Cloud& cloud, double reach);
 
 }  // namespace vitrine::acquisition

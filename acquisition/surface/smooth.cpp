@@ -10,19 +10,19 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Half sizes of a window, in steps and rows.
+// Half of a window's size, in steps and in rows, without the centre.
 struct Reach {
   int steps, rows;
 };
 constexpr std::array<Reach, 4> kWindows = {{{4, 6}, {3, 4}, {2, 2}, {1, 1}}};
 constexpr int kTerms = 6;  // the terms are 1, x, y, x², xy, y²
-// Limits in multiples of `noise`. The calibrated noise is an average: the real noise is larger
-// where the stripe is weak or the surface slants, and the motor adds its error.
-constexpr double kAllowed = 1.5;  // largest accepted rms of the residuals
-constexpr double kOwn = 3;        // largest motion of a point
+// Limits, as multiples of `noise`. They exceed 1, because the calibrated noise is an average. The
+// noise is larger where the stripe is weak or the surface is oblique, and the motor adds its error.
+constexpr double kAllowed = 1.5;  // largest rms of the residuals, in multiples of `noise`
+constexpr double kOwn = 3;        // largest motion of a point, in multiples of `noise`
 
-// Orthonormal quadratics over a window of the grid. With them, a fit needs only one product for
-// each term.
+// Orthonormal quadratic polynomials over a window of the grid. They reduce a fit to one dot product
+// per term.
 class Basis {
  public:
   explicit Basis(Reach reach) : reach_(reach) {
@@ -32,7 +32,7 @@ class Basis {
         terms_.push_back({1, p, q, p * p, p * q, q * q});
       }
     }
-    // Gram-Schmidt orthonormalisation
+    // Gram-Schmidt orthonormalisation.
     for (std::size_t k = 0; k < kTerms; ++k) {
       for (std::size_t j = 0; j < k; ++j)
         subtract(k, j, product(k, j));
@@ -74,10 +74,10 @@ class Basis {
   }
 
   Reach reach_;
-  std::vector<std::array<double, kTerms>> terms_;  // the terms at each position of the window
+  std::vector<std::array<double, kTerms>> terms_;  // values of the terms in the window
 };
 
-// The values of rho by step and row. Each strand of a step has its own layer. A position without a
+// The values of rho by step and row, in one layer for each strand of a step. A position without a
 // point is NaN.
 class Grid {
  public:
@@ -97,8 +97,8 @@ class Grid {
 
   int row(const ProfilePoint& point) const { return (point.row - low_) / step_; }
 
-  // Stores the values relative to that of the centre in `values`. Returns false if the window is
-  // incomplete.
+  // Copies a window's values, relative to the value at its centre, to `values`. Returns false if
+  // the window is incomplete.
   bool window(std::size_t layer, int step, int row, Reach reach,
               std::vector<double>& values) const {
     if (row < reach.rows || row + reach.rows >= rows_ || 2 * reach.steps >= count_) return false;

@@ -11,11 +11,12 @@
 namespace vitrine::acquisition {
 
 // Smooths the scan: moves each point in rho onto a quadratic surface fitted to the rows and steps
-// around it. If a step has two strands, the strand nearer in rho counts. Among a few windows, it
-// uses the largest that is complete and whose rms residual is at most 1.5 times `noise` (mm). If no
-// window qualifies, as at edges, the point stays. So smoothing removes nothing larger than the
-// noise. `strands` are by ascending theta over one revolution, at equal steps, with points
-// `spacing.rows` apart. Returns the number of points moved. O(n).
+// around the point. If a step has two strands, the fit uses the strand whose rho is nearer. The fit
+// tries a few window sizes, and uses the largest window that is complete and whose rms residual is
+// at most 1.5 times `noise` (mm). If no window qualifies, as at edges, the point stays. So
+// smoothing removes nothing larger than the noise. `strands` are sorted by theta over one
+// revolution, at equal steps, with points `spacing.rows` apart. Returns the number of points moved.
+// O(n).
 std::uint64_t smooth(std::vector<Profile>& strands, double noise, const Spacing& spacing);
 
 }  // namespace vitrine::acquisition

@@ -7,9 +7,10 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Number of steps to look ahead. One picture may be missing in between.
+// Number of following steps to search. Two, because one picture may be missing.
 constexpr std::size_t kStepsOn = 2;
-// Number of points to look ahead within a strand, and to either side in other strands.
+// Number of following points to search within a strand. In other strands, the search covers this
+// many points on either side.
 constexpr std::size_t kReach = 2;
 constexpr int kNeighbours = 3;
 

@@ -10,7 +10,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Cost of a step without a triangle, as a multiple of Spacing::bridge.
+// Cost of advancing without a triangle, as a multiple of Spacing::bridge.
 constexpr double kBreak = 10;
 
 struct Side {
@@ -127,8 +127,8 @@ class Strip {
     }
   }
 
-  // Stores the path that ends with this step in `way` if it is cheaper than the path stored there.
-  // A step without a triangle costs more than any edge.
+  // Stores the path that ends with this step in `way`, unless `way` already holds a cheaper path. A
+  // step without a triangle costs more than any edge.
   void offer(std::size_t i, std::size_t j, bool goes_down_a, bool goes_on, Way& way) const {
     const std::size_t from = goes_down_a ? band_.cell(i - 1, j) : band_.cell(i, j - 1);
     const double length = edges_[band_.cell(i, j)];
@@ -155,8 +155,8 @@ class Strip {
     if (distance * distance - in_depth * in_depth - height * height >
         spacing_.bridge * spacing_.bridge)
       return false;
-    // Depths are compared at the same row. Between the rows of a sampled strand, the depth of a
-    // nearly flat surface may change much without a discontinuity.
+    // Compares the depths at the same row. In a sampled strand, the depth of a nearly flat surface
+    // may change much between two points without a discontinuity.
     const double depth = std::min(std::abs(a_.depth_at(i, q.row) - q.at.rho),
                                   std::abs(b_.depth_at(j, p.row) - p.at.rho));
     return are_joined(depth, distance, spacing_);
@@ -166,8 +166,8 @@ class Strip {
     return is_accepted(i, j) ? length_across(i, j) : kNever;
   }
 
-  // Orders the corners counter-clockwise, seen from the laser. Beyond the axis (rho < 0), strand b
-  // lies on the other side of strand a, so the order is reversed.
+  // Adds a face with its corners counter-clockwise, seen from the laser. Beyond the axis (rho < 0),
+  // strand b lies on the other side of strand a, so the order is reversed.
   void add(std::size_t i, std::size_t j, std::uint32_t third, std::vector<Triangle>& faces) const {
     if (a_.points[i].at.rho < 0)
       faces.push_back({vertex_a(i), third, vertex_b(j)});

@@ -19,7 +19,7 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kFewestSteps = 3;  // fewer steps do not form a closed revolution
-constexpr double kNeighbourhood = 4;     // multiple of s_max, as in [WLL] eq. 5
+constexpr double kNeighbourhood = 4;     // points closer than this multiple of s_max are neighbours
 
 std::vector<Profile> all_strands(std::span<const Profile> profiles) {
   std::vector<Profile> all;

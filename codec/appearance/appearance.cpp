@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <future>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,8 +11,9 @@
 #include "codec/appearance/squared_error.h"
 #include "codec/appearance/structural_similarity.h"
 #include "codec/appearance/views.h"
+#include "codec/core/parallel.h"
+#include "codec/mesh/vertex_normals.h"
 #include "codec/render/render.h"
-#include "codec/render/vertex_normals.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -45,29 +45,12 @@ struct ViewDifference {
   std::optional<double> similarity;
 };
 
-ViewDifference compare_view(const ShadedMesh& a, const ShadedMesh& b, const Framing& view) {
-  const Picture first = over_grey(a, view), second = over_grey(b, view);
-  return {squared_error(first, second), structural_similarity(first, second)};
-}
-
 using Differences = std::array<ViewDifference, kViews>;
 
-// Compares the views in several threads; each takes about 100 MB.
-Differences compare_views(const ShadedMesh& a, const ShadedMesh& b,
-                          const std::array<Framing, kViews>& views) {
-  Differences differences;
-  const std::size_t threads =
-      std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kViews);
-  std::vector<std::future<void>> tasks;
-  for (std::size_t first = 0; first < threads; ++first) {
-    tasks.push_back(std::async([&, first] {
-      for (std::size_t i = first; i < kViews; i += threads)
-        differences[i] = compare_view(a, b, views[i]);
-    }));
-  }
-  for (auto& task : tasks)
-    task.get();
-  return differences;
+// Calls visit(i) for each view i in several threads. Each thread takes about 100 MB to render.
+template <class Visit>
+void for_each_view(const Visit& visit) {
+  for_each_index(std::max(1u, std::thread::hardware_concurrency()), kViews, visit);
 }
 
 Expected<Appearance> summary_of(const Differences& differences) {
@@ -88,12 +71,35 @@ Expected<Appearance> summary_of(const Differences& differences) {
 
 }  // namespace
 
+Expected<AppearanceReference> AppearanceReference::of(const ComparedModel& model) {
+  if (auto ok = check_faces(model.mesh, "B"); !ok) return tl::unexpected(ok.error());
+  const auto views = views_around(model.mesh);
+  if (!views) return tl::unexpected(views.error());
+  AppearanceReference reference;
+  reference.views_ = *views;
+  const ShadedMesh mesh = shaded(model);
+  for_each_view(
+      [&](std::size_t i) { reference.pictures_[i] = over_grey(mesh, reference.views_[i]); });
+  return reference;
+}
+
+Expected<Appearance> AppearanceReference::compare(const ComparedModel& model) const {
+  if (auto ok = check_faces(model.mesh, "A"); !ok) return tl::unexpected(ok.error());
+  const ShadedMesh mesh = shaded(model);
+  Differences differences;
+  for_each_view([&](std::size_t i) {
+    const Picture picture = over_grey(mesh, views_[i]);
+    differences[i] = {squared_error(picture, pictures_[i]),
+                      structural_similarity(picture, pictures_[i])};
+  });
+  return summary_of(differences);
+}
+
 Expected<Appearance> compare_appearance(const ComparedModel& a, const ComparedModel& b) {
   if (auto ok = check_faces(a.mesh, "A"); !ok) return tl::unexpected(ok.error());
-  if (auto ok = check_faces(b.mesh, "B"); !ok) return tl::unexpected(ok.error());
-  const auto views = views_around(b.mesh);
-  if (!views) return tl::unexpected(views.error());
-  return summary_of(compare_views(shaded(a), shaded(b), *views));
+  const auto reference = AppearanceReference::of(b);
+  if (!reference) return tl::unexpected(reference.error());
+  return reference->compare(a);
 }
 
 }  // namespace vitrine::inline codec

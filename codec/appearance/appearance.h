@@ -1,34 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares what two models look like, from twelve views of both through the same renderer.
+// Compares how two models look. Both are rendered from the same twelve directions.
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "codec/appearance/views.h"
 #include "codec/core/expected.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "codec/picture/picture.h"
 #include "codec/render/textures.h"
 
 namespace vitrine::inline codec {
 
-// A model that is compared. `textures` is null if it has no materials.
+// A model to compare. `textures` is null if the model has no materials.
 struct ComparedModel {
   const TriangleMesh& mesh;
   const Textures* textures = nullptr;
 };
 
 struct Appearance {
-  // Peak signal-to-noise ratio in decibels, over the red, green and blue of all pixels of all views
-  // that either model covers (squared_error.h). Nullopt if the pictures are equal.
+  // Peak signal-to-noise ratio (squared_error.h) in decibels, over all pixels that show either
+  // model in any view. Nullopt if the pictures are equal.
   std::optional<double> psnr;
-  // Mean over the views of the structural similarity index of their luma (structural_similarity.h),
-  // at most 1. Views that neither model covers do not count.
+  // Structural similarity index of the luma (structural_similarity.h), at most 1. This is the mean
+  // over all views that show either model.
   double ssim = 1;
 };
 
-// Renders both models in the views of the reference `b` (views.h) over grey (backdrop.h), with the
-// light and the matt surfaces of codec/render and the same normals at vertices of the same
-// position. A part of `a` outside these views is cut off, so exchanging the models gives other
-// figures unless their bounding spheres are equal.
+// The pictures of a model with which other models are compared. They are rendered only once.
+class AppearanceReference {
+ public:
+  // Fails (kBadInput) if the mesh has no face or no extent, or a face index is out of range.
+  static Expected<AppearanceReference> of(const ComparedModel& model);
+
+  // Returns what compare_appearance() returns for `model` and the model of this reference.
+  Expected<Appearance> compare(const ComparedModel& model) const;
+
+ private:
+  std::array<Framing, kViews> views_;
+  std::array<Picture, kViews> pictures_;
+};
+
+// Renders both models in the views around the reference `b` (views.h), over the grey of backdrop.h.
+// Both get the light and the matt surfaces of codec/render. Vertices at the same position get the
+// same normal.
+//
+// A part of `a` outside the views is cut off. Swapping the models therefore changes the result,
+// unless their bounding spheres are equal.
 //
 // Fails (kBadInput) if a mesh has no face, a face index is out of range, or no pixel can be
 // compared.

@@ -8,12 +8,12 @@
 
 namespace vitrine::inline codec {
 
-// Lays a picture over grey: each colour byte c of a pixel with the opacity o, 0 to 1, becomes
-// o * c + (1 - o) * 128, rounded. Keeps the opacities.
+// Blends a picture with grey. A colour byte c of a pixel with opacity o, from 0 to 1, becomes o * c
+// + (1 - o) * 128, rounded. The opacities do not change.
 void lay_over_grey(Picture& picture);
 
-// Whether either of two pictures of the same size shows a model at the pixel `index`: its opacity
-// is above 0.
+// Whether the pixel `index` shows a model, with an opacity above 0, in either of two pictures of
+// the same size.
 inline bool is_covered(const Picture& a, const Picture& b, std::size_t index) {
   return a.pixels[4 * index + 3] != 0 || b.pixels[4 * index + 3] != 0;
 }

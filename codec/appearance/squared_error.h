@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The squared error between pictures, and its peak signal-to-noise ratio.
+// The squared error between two pictures, and the peak signal-to-noise ratio computed from it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace vitrine::inline codec {
 
-// Sum over the red, green and blue bytes of the compared pixels.
+// Sum of the squared differences of the red, green and blue bytes, and the number of these bytes.
 struct SquaredError {
   double sum = 0;
   std::uint64_t bytes = 0;
@@ -17,7 +17,8 @@ struct SquaredError {
   void operator+=(const SquaredError& other) { sum += other.sum, bytes += other.bytes; }
 };
 
-// Compares the pixels that either picture covers (backdrop.h). Both must have the same size.
+// Compares the pixels that show a model in either picture (is_covered() in backdrop.h). Both
+// pictures must have the same size.
 SquaredError squared_error(const Picture& a, const Picture& b);
 
 // Returns 10 * log10(255^2 / mean squared error), in decibels. Returns nullopt if the error is 0 or

@@ -9,9 +9,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr std::size_t kWindow = 11;  // pixels
+constexpr std::size_t kWindow = 11;  // width and height in pixels
 constexpr std::size_t kCentre = kWindow / 2;
-constexpr double kDeviation = 1.5;  // pixels
+constexpr double kDeviation = 1.5;  // standard deviation of the weights, in pixels
 constexpr double kC1 = (0.01 * 255) * (0.01 * 255), kC2 = (0.03 * 255) * (0.03 * 255);
 
 // One value per pixel, rows from top to bottom.
@@ -37,7 +37,8 @@ Plane product(const Plane& a, const Plane& b) {
   return plane;
 }
 
-// The weights of a row or column of the window. The window's weights are their products.
+// Returns the weights along one axis of the window. The weight of a pixel is the product of the
+// weights of its row and its column.
 std::array<double, kWindow> gaussian() {
   std::array<double, kWindow> weights;
   double sum = 0;
@@ -50,7 +51,8 @@ std::array<double, kWindow> gaussian() {
   return weights;
 }
 
-// Returns the weighted sums of `kWindow` values that are `stride` apart.
+// Returns a plane of width x height values. Each value is the weighted sum of `kWindow` values of
+// `plane` that are `stride` apart.
 Plane weighted_sums(const Plane& plane, std::size_t width, std::size_t height, std::size_t stride) {
   static const auto weights = gaussian();
   Plane sums{width, height, std::vector<double>(width * height)};
@@ -65,18 +67,18 @@ Plane weighted_sums(const Plane& plane, std::size_t width, std::size_t height, s
   return sums;
 }
 
-// Returns the mean of each window that lies in the plane.
+// Returns the weighted mean of each window that lies inside the plane.
 Plane window_means(const Plane& plane) {
   const std::size_t width = plane.width - (kWindow - 1), height = plane.height - (kWindow - 1);
   const Plane rows = weighted_sums(plane, width, plane.height, 1);
   return weighted_sums(rows, width, height, width);
 }
 
-// The means of the windows of two pictures x and y and of their products.
+// The window means of two pictures x and y, and of the products x * x, y * y and x * y.
 struct Moments {
   Plane x, y, xx, yy, xy;
 
-  // Returns [WBSS04] eq. 13 for a window.
+  // Returns the SSIM index of one window ([WBSS04] eq. 13).
   double similarity(std::size_t window) const {
     const double mx = x.values[window], my = y.values[window];
     const double variances = (xx.values[window] - mx * mx) + (yy.values[window] - my * my);

@@ -8,13 +8,13 @@
 
 namespace vitrine::inline codec {
 
-// Returns the mean SSIM index ([WBSS04] eq. 13) of the luma 0.299 R + 0.587 G + 0.114 B of
-// sRGB-coded bytes, not rounded. The weights of a window are a Gaussian with a standard deviation
-// of 1.5 pixels on 11 x 11 pixels (eq. 14-16); K1 = 0.01, K2 = 0.03 and L = 255.
+// Returns the mean SSIM index of the luma of two pictures ([WBSS04] eq. 13). The luma is 0.299 R +
+// 0.587 G + 0.114 B of the sRGB bytes, not rounded. A window has 11 x 11 pixels, with Gaussian
+// weights of standard deviation 1.5 pixels (eq. 14-16). K1 = 0.01, K2 = 0.03 and L = 255.
 //
-// The mean is over the windows that lie in the picture and whose centre either picture covers
-// (backdrop.h), unlike eq. 17, which takes all windows. Returns nullopt if there is no such window.
-// Both pictures must have the same size.
+// The mean is over the windows that lie inside the picture and whose centre shows a model in either
+// picture (is_covered() in backdrop.h). Eq. 17 takes all windows instead. Returns nullopt if there
+// is no such window. Both pictures must have the same size.
 std::optional<double> structural_similarity(const Picture& a, const Picture& b);
 
 }  // namespace vitrine::inline codec

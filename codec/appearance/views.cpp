@@ -8,10 +8,10 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kMargin = 8;  // pixels; windows of [WBSS04] around the sphere's rim fit in
+constexpr double kMargin = 8;  // pixels; leaves room for windows of [WBSS04] at the sphere's rim
 
-// Calls `visit` with the position of each corner of each face. Vertices without faces are
-// invisible.
+// Calls `visit` with the position of each corner of each face. Skips vertices without faces,
+// because they are invisible.
 template <class Visit>
 void visit_corners(const TriangleMesh& mesh, Visit visit) {
   for (const Triangle& face : mesh.faces) {

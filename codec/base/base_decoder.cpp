@@ -1,78 +1,102 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/base/base_decoder.h"
 
-#include <draco/compression/decode.h>
-
 #include <algorithm>
-#include <string>
+#include <array>
 #include <utility>
+#include <vector>
 
-#include "codec/base/draco_mesh.h"
+#include "codec/base/base_values.h"
+#include "codec/base/coded_order.h"
+#include "codec/base/draco_layout.h"
+#include "codec/base/edgebreaker.h"
 
 namespace vitrine::inline codec {
 namespace {
 
-// A Draco header has "DRACO" in bytes 0-4, the version in 5-6, the geometry type in 7 (1: mesh) and
-// the method in 8 (1: edgebreaker).
-bool is_edgebreaker_mesh(std::span<const std::uint8_t> bytes) {
-  constexpr std::uint8_t kName[] = {'D', 'R', 'A', 'C', 'O'};
-  return bytes.size() > 10 && std::equal(std::begin(kName), std::end(kName), bytes.begin()) &&
-         bytes[7] == 1 && bytes[8] == 1;
+// The name, bitstream 2.2, a mesh (1) by the edgebreaker method (1), and no metadata.
+constexpr std::array<std::uint8_t, 11> kHeader = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0};
+constexpr std::uint8_t kNoSeams = 0xFF, kPerVertex = 0, kOfIntegers = 1;
+
+enum OrderKind : std::uint8_t { kDepthFirst = 0, kPredictionDegree = 1 };
+using OrderKinds = std::array<OrderKind, 1 + kSemantics>;
+
+// Whether the next bytes of `in` are those of `expected`.
+template <std::size_t count>
+bool follow(ByteReader& in, const std::array<std::uint8_t, count>& expected) {
+  const auto bytes = in.bytes(count);
+  return std::equal(bytes.begin(), bytes.end(), expected.begin(), expected.end());
 }
 
-bool read_attribute(const draco::Mesh& mesh, const draco::PointAttribute& attribute,
-                    std::vector<Vec3i>& out) {
-  out.resize(mesh.num_points());
-  for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
-    const auto value = attribute.mapped_index(draco::PointIndex(p));
-    auto* to = reinterpret_cast<std::int32_t*>(&out[p]);
-    if (value.value() >= attribute.size() || !attribute.ConvertValue<std::int32_t>(value, 3, to)) {
-      return false;
-    }
+Unexpected other_attributes() {
+  return fail(ErrorCode::kUnsupported,
+              "the base mesh has other attributes than its model; build the model again");
+}
+
+// Reads how the values of each attribute are coded. The position is the first attribute. Returns
+// the order of the values of each.
+Expected<OrderKinds> read_orders(ByteReader& in, const PerSemantic<Semantic>& semantics) {
+  const std::size_t count = 1 + semantics.size();
+  if (in.u8() != count) return other_attributes();
+  OrderKinds orders{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t seams = i == 0 ? kNoSeams : static_cast<std::uint8_t>(i - 1);
+    if (in.u8() != seams || in.u8() != kPerVertex) return other_attributes();
+    orders[i] = OrderKind{in.u8()};
+    if (orders[i] > kPredictionDegree) return other_attributes();
   }
-  return true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t type = i == 0 ? kDracoPosition : draco_type(semantics[i - 1]);
+    const std::array<std::uint8_t, 5> row = {1, type, kDracoInt32, 3, 0};
+    if (!follow(in, row)) return other_attributes();
+    in.varint32();  // a number that names the attribute
+    if (in.u8() != kOfIntegers) return other_attributes();
+  }
+  return orders;
+}
+
+Expected<std::vector<Vec3i>> read_attribute(ByteReader& in, const CornerTable& table,
+                                            OrderKind kind) {
+  const CodedOrder order =
+      kind == kDepthFirst ? depth_first_order(table) : prediction_degree_order(table);
+  if (order.corner.size() != table.vertex_count())
+    return damaged_base("some vertices have no faces");
+  return read_values(in, table, order);
+}
+
+std::vector<Triangle> faces_of(const CornerTable& table) {
+  std::vector<Triangle> out;
+  out.reserve(table.face_count());
+  for (Corner c = 0; c < table.vertex.size(); c += 3)
+    out.push_back({table.vertex[c], table.vertex[c + 1], table.vertex[c + 2]});
+  return out;
 }
 
 }  // namespace
 
-Expected<BaseMesh> decode_draco(std::span<const std::uint8_t> bytes) {
-  if (!is_edgebreaker_mesh(bytes)) return damaged_base("it is not a Draco edgebreaker mesh");
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  draco::Decoder decoder;
-  auto result = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!result.ok()) return damaged_base(std::string("Draco says ") + result.status().error_msg());
-  const draco::Mesh& mesh = *result.value();
+Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manifest& manifest) {
+  ByteReader in(bytes);
+  if (!follow(in, kHeader)) return damaged_base("it is not a Draco edgebreaker mesh");
+  const PerSemantic<Semantic>& semantics = manifest.attributes;
+  const LevelInfo& level = manifest.levels[0];
+  const auto table = read_connectivity(
+      in, {level.vertices, level.faces, static_cast<std::uint32_t>(semantics.size())});
+  if (!table) return tl::unexpected(table.error());
+  const auto orders = read_orders(in, semantics);
+  if (!orders) return tl::unexpected(orders.error());
 
   BaseMesh out;
-  out.faces.reserve(mesh.num_faces());
-  for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {
-    const auto& face = mesh.face(draco::FaceIndex(f));
-    out.faces.push_back({face[0].value(), face[1].value(), face[2].value()});
+  out.faces = faces_of(*table);
+  for (std::size_t i = 0; i <= semantics.size(); ++i) {
+    auto values = read_attribute(in, *table, (*orders)[i]);
+    if (!values) return tl::unexpected(std::move(values.error()));
+    if (i == 0) {
+      out.positions = std::move(*values);
+    } else {
+      out.attributes.push_back({semantics[i - 1], std::move(*values)});
+    }
   }
-  const auto* positions = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
-  bool readable = positions != nullptr && read_attribute(mesh, *positions, out.positions);
-  for (std::uint8_t i = 0; readable && i < kSemantics; ++i) {
-    const auto semantic = static_cast<Semantic>(i);
-    const auto* attribute = mesh.GetNamedAttribute(draco_type(semantic));
-    if (attribute == nullptr) continue;
-    std::vector<Vec3i> values;
-    readable = read_attribute(mesh, *attribute, values);
-    out.attributes.push_back({semantic, std::move(values)});
-  }
-  if (!readable) return damaged_base("an attribute is missing or of another kind");
   return out;
-}
-
-Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manifest& manifest) {
-  auto decoded = decode_draco(bytes);
-  if (!decoded) return tl::unexpected(decoded.error());
-  const LevelInfo& level = manifest.levels[0];
-  if (decoded->positions.size() != level.vertices || decoded->faces.size() != level.faces ||
-      !has_all(decoded->attributes, manifest.attributes, level.vertices)) {
-    return damaged_base("its counts are not those of the header");
-  }
-  return std::move(*decoded);
 }
 
 }  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the base mesh of a `.pmesh` from its Draco buffer.
+// Decodes the base mesh of a `.pmesh` from its Draco buffer [Draco].
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,10 @@
 
 namespace vitrine::inline codec {
 
-// Decodes the Draco buffer `bytes`. Fails (kBadInput) if it does not match `manifest`: the geometry
-// type and the method are checked before decoding, the counts afterwards. Draco is not safe on
-// hostile bytes, so call this in a sandbox unless this codec wrote the bytes.
+// Decodes the Draco buffer `bytes`, which must be of the kind that FORMAT.md 1.7 describes. Fails
+// (kBadInput) if the buffer is damaged or does not match `manifest`, and (kUnsupported) if Draco
+// could read it but this codec never writes it. Safe on any bytes: allocates at most 1,000 bytes
+// per byte of `bytes`. The faces need not be a valid mesh; Refiner::start checks them.
 Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manifest& manifest);
 
 }  // namespace vitrine::inline codec

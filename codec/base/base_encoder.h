@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes the base mesh without loss as a Draco buffer [Draco], with the edgebreaker method and
+// Encodes the base mesh as a Draco buffer [Draco], without loss. Uses the edgebreaker method and
 // integer attributes.
 #pragma once
 
@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 struct EncodedBase {
   std::vector<std::uint8_t> bytes;
-  BaseMesh decoded;                     // the mesh that a reader of `bytes` gets
-  std::vector<std::uint32_t> original;  // per decoded vertex: its index in the input mesh
+  BaseMesh decoded;                     // the result of decoding `bytes`
+  std::vector<std::uint32_t> original;  // for each vertex of `decoded`, its index in the input mesh
 };
 
 // Encodes `base`. Draco reorders the vertices; `decoded` has the new order. Fails (kBadInput) if

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
-// Matches the vertices of two meshes component by component. Each component is matched by flooding
-// from one pair of corners. Both meshes are closed by virtual vertices, so their boundaries must
-// correspond, too.
+// Matches the vertices of two meshes, component by component. A component is matched by a flood
+// fill that starts at one pair of corners. Virtual vertices close both meshes, so that boundary
+// loops are compared as well.
 class VertexMatcher {
  public:
   VertexMatcher(const BaseMesh& a, const BaseMesh& b, const Connectivity& in_a,
@@ -91,8 +91,8 @@ class VertexMatcher {
   const BaseMesh& b_;
   const Connectivity& in_a_;
   const Connectivity& in_b_;
-  std::vector<std::uint32_t> vertex_;  // per vertex of b: the matching vertex of a
-  std::vector<bool> is_used_;          // per vertex of a: whether a vertex of b matches it
+  std::vector<std::uint32_t> vertex_;  // for each vertex of b, the matching vertex of a
+  std::vector<bool> is_used_;          // for each vertex of a, whether a vertex of b matches it
   std::vector<VertexId> trail_;
   std::vector<Corner> by_position_;
 };

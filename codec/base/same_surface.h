@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Internal to codec/base: maps the vertices of a mesh to those of the same mesh in another order.
+// Matches the vertices of two meshes that differ only in their order. Internal to codec/base.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace vitrine::inline codec {
 
-// Returns for each vertex of `b` the corresponding vertex of `a`. Corresponding faces, positions
-// and attributes are equal. Fails (kBadInput) if the two meshes are not the same surface.
+// Returns, for each vertex of `b`, the index of the same vertex in `a`. Fails (kBadInput) unless
+// both meshes have the same faces, positions and attributes.
 Expected<std::vector<std::uint32_t>> correspond(const BaseMesh& a, const BaseMesh& b);
 
 }  // namespace vitrine::inline codec

@@ -10,6 +10,7 @@
 
 #include "codec/build/level_errors.h"
 #include "codec/build/model_encoder.h"
+#include "codec/build/texture_model.h"
 #include "codec/repair/repair.h"
 #include "codec/simplify/order_in_space.h"
 #include "codec/simplify/simplify.h"
@@ -53,27 +54,39 @@ int automatic_bits(const TriangleMesh& mesh) {
   return bits;
 }
 
-// Measured shares of a build's time that have passed at the end of reading, of simplification and
-// of encoding. They convert the progress of each stage to that of the whole build.
+// Fractions of a build's time at which reading, simplification and encoding end, from measurements.
+// They convert the progress of a stage to the progress of the whole build.
 constexpr double kRead = 0.02, kSimplified = 0.3, kEncoded = 0.99;
 // Share of the encoding time that is the same for every level. The rest is proportional to the
 // number of vertices that a level adds.
 constexpr double kPerLevel = 0.27;
 
+// Returns the size of a base mesh on which a display atlas is drawn: half a percent of the
+// vertices. On a coarser mesh, the texels of fine levels would differ more in size
+// (codec/simplify/TEXTURES.md).
+std::uint32_t textured_base_vertices(std::size_t vertices) {
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(vertices / 200, 300, 1500));
+}
+
 SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& options,
-                                 const ProgressReport& progress) {
+                                 bool is_textured, const ProgressReport& progress) {
   // With only two regions, a viewer could skip few bytes, and the second region costs bytes itself.
   const bool few = fine.positions.size() <= 2 * std::size_t{options.region_vertices};
   SimplifyOptions how{.placement = options.placement,
                       .order = options.order,
-                      .region_vertices = few ? 0 : options.region_vertices};
+                      .region_vertices = few ? 0 : options.region_vertices,
+                      .omits_components = !is_textured,
+                      .threads = options.threads};
+  if (is_textured) how.target_vertices = textured_base_vertices(fine.positions.size());
   if (progress)
     how.progress = [&](double done) { progress("simplify", std::lerp(kRead, kSimplified, done)); };
   return how;
 }
 
-Expected<EncodedModel> encode(Hierarchy hierarchy, LevelErrors& errors,
+// `original` is the mesh before it was quantised for `hierarchy`.
+Expected<EncodedModel> encode(Hierarchy hierarchy, TriangleMesh original, unsigned threads,
                               const ProgressReport& progress) {
+  LevelErrors errors(std::move(original), hierarchy, threads);
   const std::size_t levels = hierarchy.levels.size();
   const auto vertices = static_cast<double>(hierarchy.leaf.size());
   std::size_t level = 0;
@@ -87,6 +100,58 @@ Expected<EncodedModel> encode(Hierarchy hierarchy, LevelErrors& errors,
   });
   if (model) errors.finish(model->manifest);
   return model;
+}
+
+// Returns why the textures of a mesh are left out, or an empty text if they are kept.
+std::string_view reason_against(const Texturing& texturing, std::uint64_t components) {
+  // All components of a textured model are in its base mesh. More components would make the head of
+  // the file too large.
+  constexpr std::uint64_t kMostComponents = 2'000;
+  const auto has_map = [](const Material& material) {
+    bool any = false;
+    for_each_map(material, [&](const TextureMap&) { any = true; });
+    return any;
+  };
+  if (std::ranges::none_of(texturing.materials, has_map)) return "no material has a picture";
+  if (components > kMostComponents) return "the mesh has over 2000 components; join them";
+  return {};
+}
+
+// Decides whether the model gets a texture. If not, clears `texturing`, and adds a note if a
+// picture is lost. The vertex colours stay.
+void choose_texture(Texturing& texturing, BuildReport::Input& input) {
+  if (texturing.empty()) return;
+  const std::string_view reason = reason_against(texturing, input.components);
+  if (reason.empty()) return;
+  if (!texturing.pictures.empty()) {
+    input.repairs.push_back("textures left out: " + std::string(reason));
+  }
+  texturing = {};
+}
+
+// Gives `model` a texture. If that is impossible, adds a note with the reason; the vertex colours
+// stay.
+void add_texture(const TriangleMesh& mesh, Texturing texturing, EncodedModel& model,
+                 std::vector<std::string>& notes) {
+  if (texturing.empty()) return;
+  const auto more = texture_model(mesh, std::move(texturing), model);
+  if (more) notes.insert(notes.end(), more->begin(), more->end());
+  if (!more) notes.push_back("textures left out: " + more.error().message);
+}
+
+// Reorders `texturing` for a mesh whose face i was face before[i] of the old mesh.
+Texturing in_order(Texturing texturing, const std::vector<std::uint32_t>& before) {
+  const auto reorder = [&](auto& per_face) {
+    if (per_face.empty()) return;
+    auto ordered = per_face;
+    for (std::size_t f = 0; f < before.size(); ++f)
+      ordered[f] = per_face[before[f]];
+    per_face = std::move(ordered);
+  };
+  reorder(texturing.face_materials);
+  for (auto& set : texturing.coordinates)
+    reorder(set);
+  return texturing;
 }
 
 // Lets the kernel page out a memory-mapped file that has been read. Has no harmful effect on other
@@ -118,7 +183,6 @@ Expected<BuildResult> build_model(ImportedMesh imported, const BuildOptions& opt
   BuildResult out;
   BuildReport& report = out.report;
   const std::string unit = imported.unit;
-  imported.texturing = {};  // the model has its vertex colours only
   auto repaired = repair(std::move(imported));
   if (!repaired) return tl::unexpected(repaired.error());
   TriangleMesh& mesh = repaired->mesh;
@@ -127,22 +191,25 @@ Expected<BuildResult> build_model(ImportedMesh imported, const BuildOptions& opt
                   .boundary_edges = repaired->boundary_edges,
                   .components = repaired->components,
                   .repairs = std::move(repaired->repairs)};
-  order_in_space(mesh);
+  Texturing texturing = in_order(std::move(repaired->texturing), order_in_space(mesh));
+  choose_texture(texturing, report.input);
   report.seconds.read = watch.lap();
   if (progress) progress("read", kRead);
 
   const int bits = options.bits != 0 ? options.bits : automatic_bits(mesh);
   LatticeMesh fine = quantise(mesh, fit_lattice(mesh.positions, bits));
   mesh.faces = {};
-  auto hierarchy = simplify(fine, simplify_options(fine, options, progress), mesh.positions);
+  auto hierarchy =
+      simplify(fine, simplify_options(fine, options, !texturing.empty(), progress), mesh.positions);
   if (!hierarchy) return tl::unexpected(hierarchy.error());
   report.seconds.simplify = watch.lap();
 
   mesh.faces = std::move(fine.faces);
   fine = {};
-  LevelErrors errors(std::move(mesh), *hierarchy, options.threads);
-  auto model = encode(std::move(*hierarchy), errors, progress);
+  const TriangleMesh textured = texturing.empty() ? TriangleMesh{} : mesh;
+  auto model = encode(std::move(*hierarchy), std::move(mesh), options.threads, progress);
   if (!model) return tl::unexpected(model.error());
+  add_texture(textured, std::move(texturing), *model, report.input.repairs);
   report.manifest = std::move(model->manifest);
   report.manifest.unit = unit;
   report.seconds.encode = watch.lap();

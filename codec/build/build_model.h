@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds the bytes of a `.pmesh` from those of a mesh file: reads, repairs, quantises, simplifies,
-// encodes and measures the mesh. Needs no files and no other process, so it can run in a sandboxed
-// child.
+// encodes and measures the mesh. Accesses no files and starts no process, so it can run in a
+// sandboxed child process.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,20 @@
 
 namespace vitrine::inline codec {
 
-// Default size of a region, in vertices. Slightly less than half of a level's vertices are new, and
-// each costs one to two bytes in the finest level. Regions of this size therefore have chunks of 10
-// to 30 KB.
+// Default size of a region, in vertices. Slightly less than half of a level's vertices are new.
+// Each new vertex takes one to two bytes in the finest level. A chunk of that level therefore has
+// 10 to 30 KB.
 inline constexpr std::uint32_t kRegionVertices = 30'000;
 
 struct BuildOptions {
   ReadOptions reading = {};
-  // Bits per coordinate, kMinBits to kMaxBits. 0 chooses them from the median edge length.
+  // Bits per coordinate, from kMinBits to kMaxBits. 0 chooses the number from the median edge
+  // length.
   int bits = 0;
   Placement placement = Placement::kMidpoint;
   CollapseOrder order = CollapseOrder::kBatch;
-  // See SimplifyOptions. A model with at most twice this many vertices has only one region.
+  // Target size of a region (SimplifyOptions). A model with at most twice this many vertices gets
+  // only one region.
   std::uint32_t region_vertices = kRegionVertices;
   unsigned threads = 1;  // at least 1; does not change the output
 };
@@ -40,7 +42,7 @@ struct BuildReport {
     std::vector<std::string> repairs;
   };
   struct Seconds {
-    // `encode` includes the computation of error bounds
+    // seconds; `encode` includes the computation of error bounds
     double read = 0, simplify = 0, encode = 0, write = 0;
   };
 
@@ -55,8 +57,8 @@ struct BuildResult {
 };
 
 // Builds a model from the bytes of a mesh file. `progress` receives the stages "read", "simplify",
-// "encode" and "write". Fails (kBadInput, kUnsupported, kLimit) with the message of the reader or
-// of the repair.
+// "encode" and "write". Fails (kBadInput, kUnsupported, kLimit) with the error of the reader or of
+// the repair.
 Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const BuildOptions& options,
                                   const ProgressReport& progress = {});
 

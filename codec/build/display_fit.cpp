@@ -9,14 +9,14 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kFaces = 1000;
-// The fit uses only the centroids of faces. Its full strength would be too much, because the
-// corners of a face lie farther out than its centroid. In measurements, the rms error was smallest
-// at about this share of the fitted strength.
+// Share of the fitted strength that is used. The fit considers only the centroids of faces, but the
+// corners lie farther out. The full strength would therefore be too much. In measurements, this
+// share gave about the smallest rms error.
 constexpr double kShare = 0.8;
 
-// Least-squares fit of `a` in offset = a * shift. `offset` is the signed distance from a face's
-// centroid to the original surface, along the face's normal. `shift` is how far the filter at full
-// strength moves the centroid along this normal.
+// Fits the factor `a` in offset = a * shift by least squares. `offset` is the signed distance from
+// a face's centroid to the original surface, along the face's normal. `shift` is the distance by
+// which the filter at full strength moves the centroid along this normal.
 struct Fit {
   double product = 0, square = 0;
 
@@ -62,7 +62,7 @@ class FaceSampler {
   const MeshState& level_;
   const Lattice& lattice_;
   const TriangleBvh& original_;
-  std::uint32_t nearest_ = 0;  // the triangle nearest to the last point
+  std::uint32_t nearest_ = 0;  // the original's triangle nearest to the previous point
 };
 
 }  // namespace

@@ -3,15 +3,19 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
+#include "codec/core/vec2.h"
+#include "codec/mesh/texturing.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "codec/refine/refiner.h"
 
 namespace vitrine::inline codec {
 
-// A corner of a face: its position and attributes. A FaceKey holds the three corners in the
-// lexicographically smallest of their three rotations, which keeps the orientation. Faces without
-// area may have equal corners, so whole rotations are compared.
+// The position and attributes of a face's corner. A FaceKey holds the three corners of a face,
+// rotated to the lexicographically smallest order. Rotation keeps the orientation. All three
+// rotations are compared, because corners of a face without area may be equal.
 struct FaceCorner {
   Vec3i position;
   VertexAttributes::Row attributes;
@@ -19,8 +23,37 @@ struct FaceCorner {
 };
 using FaceKey = std::array<FaceCorner, 3>;
 
-// Returns the faces in sorted order. Two meshes have equal results if and only if they have the
-// same faces, orientations and attributes, regardless of how their vertices are split or ordered.
+// Returns the faces of `mesh` in sorted order. Two meshes give equal results if and only if they
+// have the same faces with the same orientations and attributes. The order of vertices and faces
+// does not matter, nor whether faces share vertices.
 std::vector<FaceKey> face_set(const LatticeMesh& mesh);
+
+// A face's corner with its texture coordinates.
+struct TexturedCorner {
+  Vec3i position;
+  Vec2i texture;
+  auto operator<=>(const TexturedCorner&) const = default;
+};
+using TexturedFaceKey = std::array<TexturedCorner, 3>;
+
+// Like face_set(), with texture coordinates instead of attributes. Returns an empty set if
+// `refiner` has no texture coordinates.
+std::vector<TexturedFaceKey> textured_face_set(const Refiner& refiner);
+
+// A face's corner with the bits of its texture coordinates in the source, all sets.
+struct SourceCorner {
+  Vec3i position;
+  std::array<std::uint32_t, 2 * kCoordinateSets> texture{};
+  auto operator<=>(const SourceCorner&) const = default;
+};
+struct SourceFaceKey {
+  std::array<SourceCorner, 3> corners;
+  std::uint16_t material = 0;
+  auto operator<=>(const SourceFaceKey&) const = default;
+};
+
+// Like face_set(), with material and texture coordinates instead of attributes. `texturing` belongs
+// to the faces of `mesh`.
+std::vector<SourceFaceKey> source_face_set(const LatticeMesh& mesh, const Texturing& texturing);
 
 }  // namespace vitrine::inline codec

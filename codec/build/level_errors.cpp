@@ -11,12 +11,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr std::size_t kAtOnce = 8;  // maximum number of levels measured at the same time
-
-// Raises the chunk's error bound so that it also covers faces between the chunk's region and a
-// neighbour region that is one level finer. Each such face is also a face of one of the two levels,
-// except for the low bits of its corners in the coarser region. These bits arrive with the coarser
-// region's next chunk.
+// Raises the chunk's error bound to cover faces between the chunk's region and a neighbour region
+// that is one level finer. Corners of such a face in the coarser region still lack the low bits of
+// their positions. These bits arrive with the coarser region's next chunk.
 void allow_for_finer_neighbours(ChunkInfo& chunk, const Manifest& manifest) {
   const std::uint32_t finer = chunk.level + 1;
   if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
@@ -45,33 +42,33 @@ LevelErrors::LevelErrors(TriangleMesh original, const Hierarchy& hierarchy, unsi
       lattice_(hierarchy.base.lattice),
       tree_(hierarchy.tree),
       leaf_(hierarchy.leaf),
-      threads_(threads) {}
+      queue_(threads, meter_.original().size() / 2 * 3) {}
 
 void LevelErrors::add(const MeshState& level, bool is_last) {
-  const std::size_t weight = make_room(is_last ? 0 : level.connectivity.face_count());
+  const std::size_t weight = weight_of(is_last ? 0 : level.connectivity.face_count());
+  queue_.make_room(weight);
   double filter = is_last ? 0 : fit_display_filter(level, lattice_, meter_.original());
-  filter = static_cast<float>(filter);  // rounds to the precision of the header
+  filter = static_cast<float>(filter);  // rounds to float, as stored in the header
   filters_.push_back(filter);
-  const auto how = threads_ > 1 ? std::launch::async : std::launch::deferred;
+  LevelError& error = errors_.emplace_back();
   if (is_last) {
-    const auto measure = [this, regions = regions_of({})] {
-      return meter_.measure_moved(
-          [this](const Vec3& p) { return lattice_.to_model(lattice_.to_lattice(p)); }, regions);
-    };
-    pending_.push_back({std::async(how, measure), weight});
+    queue_.add({[this, &error, regions = regions_of({})] {
+                  error = meter_.measure_moved(
+                      [this](const Vec3& p) { return lattice_.to_model(lattice_.to_lattice(p)); },
+                      regions);
+                },
+                weight});
   } else {
-    auto measure = [this, mesh = displayed(level, filter),
-                    regions = regions_of(leaves_of(level))]() mutable {
-      return meter_.measure(std::move(mesh), regions);
-    };
-    pending_.push_back({std::async(how, std::move(measure)), weight});
+    queue_.add({[this, &error, mesh = displayed(level, filter),
+                 regions = regions_of(leaves_of(level))]() mutable {
+                  error = meter_.measure(std::move(mesh), regions);
+                },
+                weight});
   }
-  if (threads_ == 1) settle();
 }
 
 void LevelErrors::finish(Manifest& manifest) {
-  while (!pending_.empty())
-    settle();
+  queue_.finish();
   for (std::size_t i = 0; i < manifest.levels.size(); ++i) {
     manifest.levels[i].display_filter = filters_[i];
     manifest.levels[i].max_error = errors_[i].max_error;
@@ -84,16 +81,10 @@ void LevelErrors::finish(Manifest& manifest) {
     allow_for_finer_neighbours(chunk, manifest);
 }
 
-// Waits until a thread and memory are free to measure a level with `faces` faces. Returns the
-// level's weight: an estimate of this memory, in units of the memory for one face. The weights of
-// all levels measured at the same time add up to at most the number of the original's faces, unless
-// there is only one such level.
-std::size_t LevelErrors::make_room(std::size_t faces) {
-  const std::size_t original = meter_.original().size(), weight = faces + original / kAtOnce;
-  while (!pending_.empty() && (pending_.size() + 1 >= threads_ || weight_ + weight > original))
-    settle();
-  weight_ += weight;
-  return weight;
+// Returns an estimate of the memory for measuring a level with `faces` faces, in units of the
+// memory for one face. A part of it does not depend on the level.
+std::size_t LevelErrors::weight_of(std::size_t faces) const {
+  return faces + meter_.original().size() / 8;
 }
 
 TriangleMesh LevelErrors::displayed(const MeshState& level, double filter) const {
@@ -106,8 +97,8 @@ TriangleMesh LevelErrors::displayed(const MeshState& level, double filter) const
   return mesh;
 }
 
-// Returns for each leaf the index of the current level's region that contains it. Adds the number
-// of these regions to `count`.
+// Returns, for each leaf, the index of the current level's region that contains the leaf. Adds the
+// number of these regions to `count`.
 std::vector<std::uint16_t> LevelErrors::number_regions(std::uint32_t& count) const {
   std::vector<std::uint16_t> of_leaf(tree_.leaves());
   for (const std::uint32_t node :
@@ -118,8 +109,8 @@ std::vector<std::uint16_t> LevelErrors::number_regions(std::uint32_t& count) con
   return of_leaf;
 }
 
-// Returns the region of each vertex of the level and of the original, or empty lists if the level
-// has only one region. `leaves` holds the leaf of each vertex of the level.
+// Returns the regions of the level's vertices and of the original's vertices. Both lists are empty
+// if the level has only one region. `leaves` holds the leaf of each vertex of the level.
 LevelRegions LevelErrors::regions_of(std::vector<std::uint16_t> leaves) const {
   LevelRegions out{.of_level = std::move(leaves), .of_original = leaf_, .count = 0};
   const auto of_leaf = number_regions(out.count);
@@ -129,12 +120,6 @@ LevelRegions LevelErrors::regions_of(std::vector<std::uint16_t> leaves) const {
       region = of_leaf[region];
   }
   return out;
-}
-
-void LevelErrors::settle() {
-  errors_.push_back(pending_.front().error.get());
-  weight_ -= pending_.front().weight;
-  pending_.pop_front();
 }
 
 }  // namespace vitrine::inline codec

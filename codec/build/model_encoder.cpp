@@ -25,9 +25,9 @@ void add_level(const MeshState& level, Manifest& manifest) {
       {.vertices = level.vertex_count(), .faces = level.real_face_count(), .shift = level.shift});
 }
 
-// Enlarges the box of each region of `level` to include the faces of `mesh` at the region's
-// vertices. A face between two regions is in the boxes of both, so the boxes hold for every order
-// of refinement.
+// Enlarges the bounding box of each region of `level` to include all faces at the region's
+// vertices. A face between two regions is in the boxes of both. The boxes are therefore valid for
+// every order in which regions are refined.
 void add_to_boxes(const MeshState& mesh, std::uint32_t level, RegionTree& tree) {
   std::vector<LatticeBox*> box(tree.leaves(), nullptr);
   for (const std::uint32_t node : tree.regions_at(level))
@@ -63,7 +63,8 @@ void add_chunk(const EncodedChunk& chunk, std::uint32_t level, EncodedModel& mod
   model.body.insert(model.body.end(), chunk.bytes.begin(), chunk.bytes.end());
 }
 
-// Encodes the base mesh at the start of the body. Returns an encoder whose state is the base mesh.
+// Writes the encoded base mesh at the start of the body. Returns an encoder whose state is the base
+// mesh.
 Expected<LayerEncoder> start_with_base(const Hierarchy& hierarchy, EncodedModel& model) {
   auto base = encode_base({.positions = hierarchy.base.positions,
                            .faces = hierarchy.base.faces,
@@ -75,7 +76,8 @@ Expected<LayerEncoder> start_with_base(const Hierarchy& hierarchy, EncodedModel&
   for (const std::uint32_t v : base->original)
     fine_ids.push_back(hierarchy.base_ids[v]);
   model.body = std::move(base->bytes);
-  return LayerEncoder::start(hierarchy, base->decoded, std::move(fine_ids));
+  model.base = std::move(base->decoded);
+  return LayerEncoder::start(hierarchy, model.base, std::move(fine_ids));
 }
 
 }  // namespace
@@ -102,6 +104,7 @@ Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LevelSink& on_lev
     on_level(encoder->mesh());
   }
   close_boxes(tree);
+  model.fine_ids = encoder->fine_ids();
   return model;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes a hierarchy as the contents of a `.pmesh`: base mesh, chunks, and the manifest that lists
-// them.
+// Encodes a hierarchy as the contents of a `.pmesh`: base mesh, chunks and manifest.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +14,20 @@
 namespace vitrine::inline codec {
 
 struct EncodedModel {
-  // The manifest without errors, display filters and offsets, which are not known yet.
+  // The manifest. Errors, display filters and offsets are not filled in yet.
   Manifest manifest;
   // The file after its header: base mesh, then chunks in level order.
   std::vector<std::uint8_t> body;
+  BaseMesh base;                   // as a decoder reconstructs it
+  std::vector<VertexId> fine_ids;  // per vertex at full resolution: its id in the hierarchy
 };
 
-// Called with each level, from the base mesh to the finest one. `level` is exactly the state that a
-// decoder reaches.
+// Callback that receives each level, from the base mesh to the finest level. `level` equals the
+// state that a decoder reaches.
 using LevelSink = std::function<void(const MeshState& level)>;
 
-// Encodes all levels of `hierarchy`. Frees each level's collapses before it calls `on_level`. Fails
-// (kBadInput) if Draco cannot encode the base mesh.
+// Encodes all levels of `hierarchy` and calls `on_level` for each. Frees a level's collapses before
+// that call. Fails (kBadInput) if Draco cannot encode the base mesh.
 Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LevelSink& on_level);
 
 }  // namespace vitrine::inline codec

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "codec/base/base_decoder.h"
+#include "codec/coding/atlas_coder.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -33,9 +34,28 @@ Expected<Refiner> open_model(ByteSpan pmesh) {
   const auto bytes = checked_range(pmesh, manifest->base_offset, manifest->base_length,
                                    manifest->base_sha256, "the base mesh", "fetch it again");
   if (!bytes) return tl::unexpected(bytes.error());
-  const auto base = decode_base(*bytes, *manifest);
+  auto base = decode_base(*bytes, *manifest);
   if (!base) return tl::unexpected(base.error());
+  if (const TextureInfo& texture = manifest->texture; !texture.empty()) {
+    const auto coded = checked_range(pmesh, texture.atlas_offset, texture.atlas_length,
+                                     texture.atlas_sha256, "the atlas", "fetch it again");
+    if (!coded) return tl::unexpected(coded.error());
+    auto atlas = decode_atlas(*coded, *base);
+    if (!atlas) return tl::unexpected(atlas.error());
+    base->atlas = std::move(*atlas);
+  }
   return Refiner::start(std::move(*manifest), *base);
+}
+
+Expected<ByteSpan> picture_of(const Manifest& manifest, ByteSpan pmesh, std::size_t i) {
+  const PictureInfo& picture = manifest.texture.pictures[i];
+  return checked_range(pmesh, picture.offset, picture.length, picture.sha256,
+                       fmt::format("picture {} of the texture", i), "fetch it again");
+}
+
+Expected<ByteSpan> optional_block(const OptionalBlock& block, ByteSpan pmesh) {
+  return checked_range(pmesh, block.offset, block.length, block.sha256, "an optional block",
+                       "fetch it again");
 }
 
 ChunkReader chunks_of(const Manifest& manifest, ByteSpan pmesh) {

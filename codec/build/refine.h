@@ -1,21 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refines a model to a detail target, with chunks from a function that the caller supplies.
+// Refines a model to a detail target. The caller supplies a function that reads chunks.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
+#include "codec/core/vec.h"
 #include "codec/plan/planner.h"
 #include "codec/refine/refiner.h"
 
 namespace vitrine::inline codec {
 
-// A function that checks the SHA-256 of chunk number `chunk` of the manifest and returns the bytes
-// of the chunk.
+// Returns the bytes of the manifest's chunk number `chunk`, after checking their SHA-256.
 using ChunkReader = std::function<Expected<std::span<const std::uint8_t>>(std::size_t chunk)>;
 
-// Applies the chunks that the planner chooses for `want`, in the planner's order. If `want` is
-// WantTriangles, then undoes the splits of the last chunk that exceed this number. Fails with the
-// error of `read` or of Refiner::apply().
+// Applies the chunks that the planner chooses for `want`, in the planner's order. If `want` is a
+// WantTriangles, also undoes the last splits that exceed the requested number of triangles. Fails
+// with the error of `read` or of Refiner::apply().
 Expected<void> refine(Refiner& refiner, const Want& want, const ChunkReader& read);
+
+// The detail that a refiner shows.
+struct ShownDetail {
+  std::uint32_t level = 0;  // the finest complete level
+  double error = 0;         // upper bound of the error of that level, in model units
+  // The middles of the cells of the finest level that is shown in part, in model units: origin +
+  // step * integer. Without display filter, vertices lie there.
+  Vec3 grid_origin;
+  double grid_step = 1;
+};
+ShownDetail shown_detail(const Refiner& refiner);
 
 }  // namespace vitrine::inline codec

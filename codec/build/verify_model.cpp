@@ -7,6 +7,8 @@
 
 #include "codec/build/face_set.h"
 #include "codec/build/open_model.h"
+#include "codec/build/originals.h"
+#include "codec/picture/decode_picture.h"
 #include "codec/repair/repair.h"
 
 namespace vitrine::inline codec {
@@ -15,7 +17,7 @@ namespace {
 using ByteSpan = std::span<const std::uint8_t>;
 
 constexpr std::uint32_t kOrders = 3;
-constexpr std::size_t kStatesPerOrder = 4;  // number of intermediate states to check
+constexpr std::size_t kStatesPerOrder = 4;  // number of intermediate states checked per order
 
 Unexpected bad(const std::string& what) {
   return fail(ErrorCode::kBadInput, what + "; build the file again");
@@ -45,8 +47,8 @@ Expected<void> check_loops(const Refiner& refiner) {
                          refiner.manifest().loops));
 }
 
-// Checks that the box of each region contains all faces at the region's vertices. Planners rely on
-// this.
+// Checks that the box of each region contains all faces at the region's vertices. The planner
+// relies on this.
 Expected<void> check_boxes(const Refiner& refiner, std::uint32_t level) {
   const Manifest& manifest = refiner.manifest();
   std::vector<const LatticeBox*> box(manifest.tree.leaves());
@@ -78,6 +80,59 @@ Expected<void> check_errors(const Manifest& manifest) {
   return {};
 }
 
+// Checks that every corner of a face has texture coordinates inside the picture.
+Expected<void> check_coordinates(const Refiner& refiner, const std::string& where) {
+  const Wedges& wedges = refiner.wedges();
+  if (wedges.empty()) return {};
+  const Connectivity& faces = refiner.connectivity();
+  const auto side = static_cast<std::int32_t>(refiner.manifest().texture.side);
+  for (Corner c = 0; c < 3 * faces.face_count(); ++c) {
+    if (!faces.is_real(c / 3)) continue;
+    const WedgeId wedge = wedges.of(c);
+    if (wedge == kNoWedge) return bad(fmt::format("a corner of {} has no coordinates", where));
+    const Vec2i& at = wedges[wedge].at;
+    if (at.x >= 0 && at.y >= 0 && at.x <= side && at.y <= side) continue;
+    return bad(fmt::format("texture coordinates of {} are outside the picture", where));
+  }
+  return {};
+}
+
+Expected<void> check_picture(const Manifest& manifest, ByteSpan pmesh, std::size_t i) {
+  const auto bytes = picture_of(manifest, pmesh, i);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (!is_webp(*bytes)) return bad(fmt::format("picture {} of the texture is not WebP", i));
+  const std::uint64_t side = manifest.texture.pictures[i].side;
+  const auto picture = decode_picture(*bytes, side * side);
+  if (!picture) {
+    return fail(picture.error().code,
+                fmt::format("picture {} of the texture {}", i, picture.error().message));
+  }
+  if (picture->width == side && picture->height == side) return {};
+  return bad(fmt::format("picture {} of the texture has {} x {} pixels and the header says {}", i,
+                         picture->width, picture->height, side));
+}
+
+Expected<void> check_pictures(const Manifest& manifest, ByteSpan pmesh) {
+  for (std::size_t i = 0; i < manifest.texture.pictures.size(); ++i) {
+    if (auto ok = check_picture(manifest, pmesh, i); !ok) return ok;
+  }
+  return {};
+}
+
+Expected<void> check_optional_blocks(const Manifest& manifest, ByteSpan pmesh) {
+  for (const OptionalBlock& block : manifest.optional_blocks) {
+    if (const auto bytes = optional_block(block, pmesh); !bytes)
+      return tl::unexpected(bytes.error());
+  }
+  return {};
+}
+
+// Returns the originals, or an empty texturing if the file has none.
+Expected<Texturing> read_originals(const Refiner& refiner, ByteSpan pmesh) {
+  if (!has_originals(refiner.manifest())) return Texturing{};
+  return originals_of(refiner, pmesh);
+}
+
 Expected<void> check_level(const Refiner& refiner, std::uint32_t level) {
   const LevelInfo& stated = refiner.manifest().levels[level];
   if (refiner.vertex_count() != stated.vertices || refiner.face_count() != stated.faces) {
@@ -86,7 +141,9 @@ Expected<void> check_level(const Refiner& refiner, std::uint32_t level) {
                            stated.faces));
   }
   if (auto ok = check_boxes(refiner, level); !ok) return ok;
-  return check_manifold(refiner, fmt::format("level {}", level));
+  const std::string where = fmt::format("level {}", level);
+  if (auto ok = check_coordinates(refiner, where); !ok) return ok;
+  return check_manifold(refiner, where);
 }
 
 Expected<void> apply(Refiner& refiner, std::size_t chunk, ByteSpan pmesh) {
@@ -131,20 +188,32 @@ Expected<Refiner> refine_at_random(ByteSpan pmesh, std::uint32_t seed) {
     if (applied % stride != 0) continue;
     const auto where = fmt::format("the state after {} chunks of random order {}", applied, seed);
     if (auto ok = check_manifold(*refiner, where); !ok) return tl::unexpected(ok.error());
+    if (auto ok = check_coordinates(*refiner, where); !ok) return tl::unexpected(ok.error());
   }
   return refiner;
 }
 
-// Refines in random orders, each of which must end with the faces `expected`. Returns the number of
-// orders checked, including the order by level. A model with one region has only that order.
+// The faces of a refined model.
+struct FinalFaces {
+  std::vector<FaceKey> plain;
+  std::vector<TexturedFaceKey> textured;
+  bool operator==(const FinalFaces&) const = default;
+};
+
+FinalFaces final_faces(const Refiner& refiner) {
+  return {face_set(refiner.lattice_mesh()), textured_face_set(refiner)};
+}
+
+// Refines the model in several random orders and by level. Each order must end with the faces
+// `expected`. Returns the number of orders checked. A model with one region has only the order by
+// level.
 Expected<std::uint32_t> check_orders(ByteSpan pmesh, const Manifest& manifest,
-                                     const std::vector<FaceKey>& expected,
-                                     const ProgressReport& progress) {
+                                     const FinalFaces& expected, const ProgressReport& progress) {
   if (manifest.tree.leaves() == 1) return 1;
   for (std::uint32_t seed = 1; seed <= kOrders; ++seed) {
     const auto refiner = refine_at_random(pmesh, seed);
     if (!refiner) return tl::unexpected(refiner.error());
-    if (face_set(refiner->lattice_mesh()) != expected) {
+    if (final_faces(*refiner) != expected) {
       return bad(fmt::format("random refinement order {} ends in another mesh", seed));
     }
     progress("orders", seed / double{kOrders});
@@ -152,8 +221,11 @@ Expected<std::uint32_t> check_orders(ByteSpan pmesh, const Manifest& manifest,
   return 1 + kOrders;
 }
 
-Expected<bool> equals_input(const std::vector<FaceKey>& faces, const Manifest& manifest,
-                            const OriginalFile& input) {
+// Whether the input has these faces and, if `originals` is not empty, these materials, texture
+// coordinates and pictures.
+Expected<bool> equals_input(const std::vector<FaceKey>& faces, const Refiner& refiner,
+                            const Texturing& originals, const OriginalFile& input) {
+  const Manifest& manifest = refiner.manifest();
   auto imported = read_mesh(input.bytes, input.reading);
   if (!imported) return tl::unexpected(imported.error());
   const auto repaired = repair(std::move(*imported));
@@ -161,7 +233,12 @@ Expected<bool> equals_input(const std::vector<FaceKey>& faces, const Manifest& m
   const TriangleMesh& mesh = repaired->mesh;
   if (fit_lattice(mesh.positions, manifest.lattice.bits) != manifest.lattice) return false;
   if (mesh.attributes.semantics() != manifest.attributes) return false;
-  return face_set(quantise(mesh, manifest.lattice)) == faces;
+  const LatticeMesh quantised = quantise(mesh, manifest.lattice);
+  if (face_set(quantised) != faces) return false;
+  if (originals.empty()) return true;
+  return !repaired->texturing.empty() && have_same_materials(originals, repaired->texturing) &&
+         source_face_set(refiner.lattice_mesh(), originals) ==
+             source_face_set(quantised, repaired->texturing);
 }
 
 }  // namespace
@@ -174,8 +251,13 @@ Expected<Verification> verify_model(ByteSpan pmesh, const std::optional<Original
   if (auto ok = check_size(manifest, pmesh.size()); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_errors(manifest); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_loops(*refiner); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_pictures(manifest, pmesh); !ok) return tl::unexpected(ok.error());
 
-  const auto faces = face_set(refiner->lattice_mesh());
+  if (auto ok = check_optional_blocks(manifest, pmesh); !ok) return tl::unexpected(ok.error());
+  const auto originals = read_originals(*refiner, pmesh);
+  if (!originals) return tl::unexpected(originals.error());
+
+  const FinalFaces faces = final_faces(*refiner);
   const auto orders = check_orders(pmesh, manifest, faces, progress);
   if (!orders) return tl::unexpected(orders.error());
 
@@ -183,9 +265,11 @@ Expected<Verification> verify_model(ByteSpan pmesh, const std::optional<Original
                       .chunks = manifest.chunks.size(),
                       .vertices = refiner->vertex_count(),
                       .faces = refiner->face_count(),
+                      .pictures = manifest.texture.pictures.size(),
+                      .has_originals = !originals->empty(),
                       .orders = *orders};
   if (input) {
-    const auto equal = equals_input(faces, manifest, *input);
+    const auto equal = equals_input(faces.plain, *refiner, *originals, *input);
     if (!equal) return tl::unexpected(equal.error());
     result.is_lossless = *equal;
   }

@@ -4,7 +4,7 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(library_modules appearance base build coding core distance export files format gltf import mesh picture plan refine render repair simplify)
+set(library_modules appearance atlas bake base build coding core distance export files format gltf import mesh package picture plan refine render repair simplify)
 add_library(vitrine_codec STATIC)
 foreach(module IN LISTS library_modules)
   target_sources(vitrine_codec PRIVATE $<TARGET_OBJECTS:vitrine_codec_${module}>)

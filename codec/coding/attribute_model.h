@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes the difference in one attribute between the two vertices of a split, one channel at a time.
-// The caller supplies a prediction from predicted_difference() in surroundings.h, which chooses the
-// predictor by semantic.
+// The caller supplies a prediction, computed by predicted_difference() in surroundings.h.
 #pragma once
 
 #include <array>
@@ -13,8 +12,8 @@ namespace vitrine::inline codec {
 
 class AttributeModel {
  public:
-  // Codes `truth`, the value at v minus the value at the new vertex. Returns the coded value. The
-  // prediction is `difference` times a weight that is learned online.
+  // Codes `truth`, the attribute of vertex v minus that of the new vertex. Returns the coded value.
+  // The prediction of this value is `difference` times a weight that is learned online.
   template <class Coder>
   Vec3i code(Coder& coder, const Vec3& difference, Vec3i truth) {
     return {channels_[0].code(coder, difference.x, truth.x),
@@ -24,8 +23,8 @@ class AttributeModel {
 
  private:
   struct ChannelModel {
-    // The width of the residual's distribution follows the running mean square of the error,
-    // separately for eight size classes of the predicted difference.
+    // The model's standard deviation follows the running mean square of the prediction error. This
+    // mean is learned separately for eight size classes of the predicted difference.
     template <class Coder>
     std::int32_t code(Coder& coder, double difference, std::int32_t truth) {
       const double expected = product_ / square_ * difference;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Supplies the splits of one level to the LayerPass of an encoder. Each split undoes one recorded
+// Supplies the splits of one level to the encoder's LayerPass. Each split undoes one recorded
 // collapse.
 #pragma once
 
@@ -26,7 +26,7 @@ class CollapseReplay {
     const std::uint32_t k = collapse_of_[fine_[v]];
     if (k == kNoCollapse) return false;
     const Collapse& c = collapses_[k];
-    // The new vertex is v2. Its faces run from apex21 around to apex12.
+    // The new vertex is v2. It takes the faces from apex21 around to apex12.
     told = {.qi = to_state(c.apex21), .qj = to_state(c.apex12), .d = c.p1 - c.p2};
     for (std::size_t i = 0; i < kSemantics; ++i)
       told.attribute_d[i] = c.a1[i] - c.a2[i];

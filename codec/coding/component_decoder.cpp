@@ -11,7 +11,7 @@ Expected<std::vector<InsertedComponent>> decode_components(MeshState& mesh, cons
                                                            RangeDecoder& coder) {
   if (frame.inserted == 0) return std::vector<InsertedComponent>();
   NoComponentTruth truth;
-  // Allocates the pass on the heap, because its models are too large for a WebAssembly stack.
+  // Allocates the pass on the heap, because its models do not fit on a WebAssembly stack.
   return std::make_unique<ComponentPass<RangeDecoder, NoComponentTruth>>(mesh, frame, coder, truth)
       ->run();
 }

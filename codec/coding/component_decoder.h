@@ -12,7 +12,7 @@
 namespace vitrine::inline codec {
 
 // Decodes the components, inserts them into `mesh` and returns them in coded order. Safe on hostile
-// bytes, like decode_layer().
+// bytes. After an error, `mesh` can be destroyed safely but must not be used.
 Expected<std::vector<InsertedComponent>> decode_components(MeshState& mesh, const ChunkFrame& frame,
                                                            RangeDecoder& coder);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive models for inserted components: how their faces connect, and where their vertices are.
+// Adaptive models for inserted components: how their faces connect and where their vertices are.
+// NumberModel also codes texture coordinates of base meshes.
 // All probabilities start at one half, except those of ResidualCoder, which start at trained
 // values.
 #pragma once
@@ -16,8 +17,25 @@
 
 namespace vitrine::inline codec {
 
-// Codes a triple of integers, given a prediction. The width of the distribution follows the running
-// mean square of the error, separately for each axis.
+// Codes an integer, given a prediction. The standard deviation of the model follows the running
+// mean square of the error.
+class NumberModel {
+ public:
+  template <class Coder>
+  std::int32_t code(Coder& coder, double expected, std::int32_t truth) {
+    const std::int32_t value = coder_.code(coder, truth, expected, std::sqrt(energy_ + 0.05));
+    const double error = static_cast<double>(value) - expected;
+    energy_ += (error * error - energy_) / std::min(++seen_, kMemory);
+    return value;
+  }
+
+ private:
+  static constexpr double kMemory = 24;
+  double energy_ = 64, seen_ = 1;
+  ResidualCoder coder_;
+};
+
+// Codes three integers, each with its own model.
 class TripleModel {
  public:
   template <class Coder>
@@ -30,28 +48,14 @@ class TripleModel {
   }
 
  private:
-  struct AxisModel {
-    template <class Coder>
-    std::int32_t code(Coder& coder, std::int32_t expected, std::int32_t truth) {
-      const std::int32_t value = coder_.code(coder, truth, expected, std::sqrt(energy_ + 0.05));
-      const double error = static_cast<double>(value) - expected;
-      energy_ += (error * error - energy_) / std::min(++seen_, kMemory);
-      return value;
-    }
-
-    static constexpr double kMemory = 24;
-    double energy_ = 64, seen_ = 1;
-    ResidualCoder coder_;
-  };
-
-  std::array<AxisModel, 3> axes_;
+  std::array<NumberModel, 3> axes_;
 };
 
-// Codes which face, if any, lies across an open edge.
+// Codes whether a face lies across an open edge, and which vertex completes that face.
 class GateModel {
  public:
-  // Codes whether the open edge is a boundary edge, across which there is no face. `faces` is the
-  // number of faces of the component so far.
+  // Codes whether the open edge is a boundary edge, which has no face on its other side. `faces` is
+  // the number of the component's faces coded so far.
   template <class Coder>
   bool code_boundary(Coder& coder, std::size_t faces, bool truth) {
     return coder.bit(boundary_[context(faces)], truth ? 1 : 0) != 0;
@@ -60,8 +64,8 @@ class GateModel {
   bool code_new(Coder& coder, std::size_t faces, bool truth) {
     return coder.bit(new_[context(faces)], truth ? 1 : 0) != 0;
   }
-  // Codes whether a given vertex is the third vertex of the face. `sides` is the number (0 to 2) of
-  // the face's other two edges that would then connect to existing faces.
+  // Codes whether a given vertex is the third vertex of the new face. `sides` is the number (0 to
+  // 2) of the face's other two edges that would then connect to existing faces.
   template <class Coder>
   bool code_known(Coder& coder, int sides, bool truth) {
     return coder.bit(known_[static_cast<std::size_t>(sides)], truth ? 1 : 0) != 0;
@@ -75,7 +79,7 @@ class GateModel {
   std::array<AdaptiveBit, 3> known_;
 };
 
-// The models for the first vertex of a component and for its other vertices.
+// Models for the first vertex of a component and for all other vertices.
 struct VertexModel {
   TripleModel first, other;
 };
@@ -83,7 +87,7 @@ struct VertexModel {
 struct ComponentModel {
   GateModel gates;
   VertexModel cells;
-  std::array<VertexModel, kSemantics> attributes;  // per attribute of the mesh
+  std::array<VertexModel, kSemantics> attributes;  // one entry per attribute of the mesh
 };
 
 }  // namespace vitrine::inline codec

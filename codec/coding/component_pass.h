@@ -3,8 +3,9 @@
 // triangle across its open edges ("gates"), in the order in which these edges appear. The encoder
 // and the decoder run the same pass.
 //
-// The pass uses no existing vertices, and no new vertex is adjacent to an existing one. The
-// components are therefore the same, whatever the order in which regions are refined.
+// No inserted component touches an existing vertex, and the pass uses no existing vertex as
+// context. The inserted components are therefore the same for every order in which regions are
+// refined.
 #pragma once
 
 #include <array>
@@ -20,16 +21,16 @@
 
 namespace vitrine::inline codec {
 
-// The directed edges of a component, as bits. For each vertex, numbered from 0, there are bits for
-// the edges that leave it and for those that enter it.
+// The directed edges of a component, stored as bits. For each vertex, numbered from 0, one word
+// holds the edges that leave the vertex, and one the edges that enter it.
 class EdgeSet {
  public:
   void add(std::uint32_t from, std::uint32_t to) {
     out_[from] |= std::uint64_t{1} << to, in_[to] |= std::uint64_t{1} << from;
   }
   bool has(std::uint32_t from, std::uint32_t to) const { return (out_[from] >> to & 1) != 0; }
-  // Returns, as bits, the vertices that may become the third vertex of a face with the edge from ->
-  // to. All of them are on open edges.
+  // Returns the vertices that may complete a face with the edge from -> to, as one bit per vertex.
+  // All of them are on open edges.
   std::uint64_t thirds(std::uint32_t from, std::uint32_t to, std::uint32_t vertices) const {
     std::uint64_t open = 0;
     for (std::uint32_t v = 0; v < vertices; ++v)
@@ -45,10 +46,10 @@ class EdgeSet {
 inline constexpr std::uint32_t kNoThird = 0xFFFF'FFFFu;
 
 // `Truth` supplies the values to an encoder. A decoder passes NoComponentTruth. The vertices of a
-// component are numbered in the order in which they are reached.
+// component are numbered in the order in which the pass reaches them.
 //  void next()                 proceeds to the next component; its first face is (0, 1, 2)
-//  uint32 third(from, to)      returns the third vertex of the face with that edge, or kNoThird; a
-//                              new vertex gets the next number
+//  uint32 third(from, to)      returns the third vertex of the face at this edge, or kNoThird if
+//                              there is none; a new vertex gets the next number
 //  Vec3i cell(v)               returns the cell of vertex v
 //  Vec3i value(i, v)           returns the i-th attribute of vertex v
 //  void added()                is called once the component has been added to the mesh state
@@ -113,10 +114,11 @@ class ComponentPass {
     return part_.faces.size() <= 2 * part_.positions.size();
   }
 
-  // Codes the face, if any, across an open edge. Returns false on damaged data.
+  // Codes whether a face lies across the open edge `gate`. If so, codes its third vertex and adds
+  // the face. Returns false if the data is damaged.
   bool pass(ComponentEdge gate) {
     const auto [from, to] = gate;
-    if (edges_.has(from, to)) return true;  // another face uses this edge already
+    if (edges_.has(from, to)) return true;  // a face at this edge was coded before
     const auto met = static_cast<std::uint32_t>(part_.positions.size());
     const std::size_t faces = part_.faces.size();
     const std::uint64_t known = edges_.thirds(from, to, met);
@@ -131,8 +133,8 @@ class ComponentPass {
     return true;
   }
 
-  // Codes which of the `known` vertices is the third one, with one flag per vertex. The last vertex
-  // needs no flag.
+  // Codes which of the `known` vertices is the third one. Codes one flag per vertex, but none for
+  // the last vertex, which is certain.
   std::uint32_t code_known(ComponentEdge gate, std::uint64_t known, std::uint32_t third) {
     for (;;) {
       const auto v = static_cast<std::uint32_t>(std::countr_zero(known));

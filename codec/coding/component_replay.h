@@ -73,7 +73,7 @@ class ComponentReplay {
   std::vector<VertexId>& fine_;
   std::vector<VertexId>& state_;
   const Component* now_ = nullptr;
-  // Vertices of the current component, in the order in which they are reached.
+  // The current component's vertices, in the order in which the pass reaches them.
   std::vector<std::uint32_t> met_;
 };
 

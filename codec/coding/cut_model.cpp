@@ -9,50 +9,63 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kNegligible = 1e-3;  // learning skips candidates with a lower probability
+constexpr double kNegligible = 1e-3;  // learn() skips candidates with a lower probability
+constexpr double kNoScore = -1e300;   // of a candidate that does not exist
+// The highest scores of two candidates, if both exist and if only the first exists.
+constexpr std::array<Double2, 2> kHighest = {Double2{1e300, 1e300}, Double2{1e300, kNoScore}};
 
-// The ring vertices as arrays, from which the data of two consecutive vertices is loaded at once.
-// Each array has one extra entry, so that the last load stays inside it.
+// The values of each ring vertex, as one array per value. The values of two consecutive vertices
+// are loaded at once, so each array has one extra entry.
 struct RingArrays {
   RingArrays(const RingGeometry& ring, double inverse) {
     for (std::uint32_t k = 0; k <= ring.size; ++k) {
       const std::uint32_t m = k < ring.size ? k : 0;
-      const Vec3 p = ring.at[m] * inverse;
+      const Vec3 p = ring.at(m) * inverse;
       x[k] = p.x, y[k] = p.y, z[k] = p.z;
       length[k] = vitrine::length(p);
       valence[k] = ring.valence[m];
       is_virtual[k] = ring.is_virtual[m] ? 1.0 : 0.0;
+      real[k] = 1 - is_virtual[k];
+      square[k] = dot(ring.at(m), ring.at(m)) * real[k];
+      const double v_valence = ring.size - k + 2.0 - 6, w_valence = k + 2.0 - 6;
+      valences[k] = (v_valence * v_valence + w_valence * w_valence) * 0.1;
     }
   }
 
   static constexpr std::size_t kSize = kMaxSplitValence + 1;
   std::array<double, kSize> x, y, z, length, valence, is_virtual;
+  std::array<double, kSize> real, square;  // 1 and the squared length; 0 if the vertex is virtual
+  std::array<double, kSize> valences;      // per number of faces of the new vertex: feature 0
 };
 
-// Prefix sums over the ring vertices, going twice around the ring. Virtual vertices are left out.
+// Prefix sums over the ring. Virtual vertices do not count. The positions are integers, so all sums
+// are exact, and a sum over any arc is a difference of two prefix sums.
 struct PrefixSums {
-  explicit PrefixSums(const RingGeometry& ring) {
-    x[0] = y[0] = z[0] = squares[0] = 0;
-    count[0] = 0;
-    for (std::uint32_t k = 0; k < 2 * ring.size; ++k) {
-      const std::uint32_t m = k < ring.size ? k : k - ring.size;
-      const bool real = !ring.is_virtual[m];
-      const Vec3& p = ring.at[m];
-      x[k + 1] = real ? x[k] + p.x : x[k];
-      y[k + 1] = real ? y[k] + p.y : y[k];
-      z[k + 1] = real ? z[k] + p.z : z[k];
-      squares[k + 1] = real ? squares[k] + dot(p, p) : squares[k];
-      count[k + 1] = count[k] + (real ? 1 : 0);
+  PrefixSums(const RingGeometry& ring, const RingArrays& arrays) : size(ring.size) {
+    Vec3 sum;
+    for (std::uint32_t k = 0; k <= ring.size; ++k) {
+      x[k] = sum.x, y[k] = sum.y, z[k] = sum.z;
+      count[k] = total_count;
+      if (k == ring.size) break;
+      if (!ring.is_virtual[k]) sum += ring.at(k), ++total_count;
+      squares += arrays.square[k];
     }
+    x[size + 1] = y[size + 1] = z[size + 1] = 0;
+    count[size + 1] = total_count;
   }
 
-  static constexpr std::size_t kSize = 2 * kMaxSplitValence + 1;
-  std::array<double, kSize> x, y, z, squares;
-  std::array<int, kSize> count;
+  Vec3 total() const { return {x[size], y[size], z[size]}; }
+
+  static constexpr std::size_t kSize = kMaxSplitValence + 2;
+  std::uint32_t size;
+  std::array<double, kSize> x, y, z;
+  std::array<std::uint32_t, kSize> count;
+  std::uint32_t total_count = 0;
+  double squares = 0;  // sum of all squared lengths
 };
 
 // A table of 1 / n, correctly rounded, which saves divisions. The entry for n = 0 is 0, so that the
-// mean of no values is zero.
+// mean of zero values is 0.
 constexpr auto kReciprocal = [] {
   std::array<double, kMaxSplitValence + 2> r{};
   for (std::size_t n = 1; n < r.size(); ++n)
@@ -86,60 +99,50 @@ TwoVec3 two_at(const Arrays& a, std::uint32_t k) {
   return {load2(&a.x[k]), load2(&a.y[k]), load2(&a.z[k])};
 }
 
-// Sums over two arcs of the ring that have one end in common.
+// Sums and means of the positions on two arcs of the ring. The two arcs share one end.
 struct Arcs {
-  TwoVec3 sum, mean;
-  Double2 squares, count;
+  Arcs(const TwoVec3& sums, std::uint32_t first_count, std::uint32_t second_count)
+      : sum(sums), mean(sum * Double2{kReciprocal[first_count], kReciprocal[second_count]}) {}
 
-  void count_up(int a, int b) {
-    count = Double2{static_cast<double>(a), static_cast<double>(b)};
-    mean = sum * Double2{kReciprocal[static_cast<std::size_t>(a)],
-                         kReciprocal[static_cast<std::size_t>(b)]};
-  }
+  TwoVec3 sum, mean;
 };
 
-// Returns the sums over two arcs that start at `from`: one ends at `to`, the other at the vertex
-// after `to`.
+// Returns the two arcs that start at `from`: one ends at `to`, the other at the vertex after `to`.
 Arcs arcs_to(const PrefixSums& p, std::uint32_t from, std::uint32_t to) {
-  Arcs a;
-  a.sum = two_at(p, to + 1) - twice(at(p, from));
-  a.squares = load2(&p.squares[to + 1]) - p.squares[from];
-  a.count_up(p.count[to + 1] - p.count[from], p.count[to + 2] - p.count[from]);
-  return a;
+  return {two_at(p, to + 1) - twice(at(p, from)), p.count[to + 1] - p.count[from],
+          p.count[to + 2] - p.count[from]};
 }
 
-// Returns the sums over two arcs that end at `to`: one starts at `from`, the other at the vertex
-// after `from`.
+// Returns the two arcs that end at `to` after passing the end of the ring: one starts at `from`,
+// the other at the vertex after `from`.
 Arcs arcs_from(const PrefixSums& p, std::uint32_t from, std::uint32_t to) {
-  Arcs a;
-  a.sum = twice(at(p, to + 1)) - two_at(p, from);
-  a.squares = p.squares[to + 1] - load2(&p.squares[from]);
-  a.count_up(p.count[to + 1] - p.count[from], p.count[to + 1] - p.count[from + 1]);
-  return a;
+  const std::uint32_t count = p.total_count + p.count[to + 1];
+  return {twice(p.total() + at(p, to + 1)) - two_at(p, from), count - p.count[from],
+          count - p.count[from + 1]};
 }
 
 Double2 square(Double2 x) {
   return x * x;
 }
 
-using TwoFeatures = std::array<Double2, CutModel::kFeatures>;
-
-// Computes the features of the cuts (i, j) and (i, j + 1).
-TwoFeatures features_of(const RingArrays& ring, const PrefixSums& sums, std::uint32_t n,
-                        double inverse, std::uint32_t i, std::uint32_t j) {
-  const Arcs near = arcs_to(sums, i, j), far = arcs_from(sums, j, i + n);
+// Computes the features of two cuts: one between ring vertices i and j, the other between i and j +
+// 1.
+std::array<Double2, CutModel::kFeatures> features_of(const RingArrays& ring, const PrefixSums& sums,
+                                                     double inverse, std::uint32_t i,
+                                                     std::uint32_t j) {
+  const Arcs near = arcs_to(sums, i, j), far = arcs_from(sums, j, i);
   const TwoVec3 d = (far.mean - near.mean) * both(CutModel::kArcToEdge * inverse);
   const TwoVec3 l = twice(at(ring, i)), r = two_at(ring, j);
   const TwoVec3 chord = r - l, centre = (l + r) * both(0.5);
   const Double2 edge = length(d), chord_length = length(chord);
   const Double2 reach = load2(&ring.length[j]);
-  const Double2 taken = both(j - i) + Double2{0, 1};
-  const Double2 v_valence = n - taken + 2 - 6, w_valence = taken + 2 - 6;
-  const Double2 real = near.count + far.count;
-  // Sum of the squared lengths of the edges to both arcs, with the two vertices at +-d/2.
-  const Double2 squares = (near.squares + far.squares) * inverse * inverse +
-                          dot(d, near.sum - far.sum) * inverse + real * 0.25 * dot(d, d);
-  return {(square(v_valence) + square(w_valence)) * 0.1,
+  // Both ends of the cut are in both arcs.
+  const Double2 real = sums.total_count + ring.real[i] + load2(&ring.real[j]);
+  // Sum of the squared lengths of the edges from the two vertices, at +d/2 and -d/2, to their arcs.
+  const Double2 squares =
+      (sums.squares + ring.square[i] + load2(&ring.square[j])) * inverse * inverse +
+      dot(d, near.sum - far.sum) * inverse + real * 0.25 * dot(d, d);
+  return {load2(&ring.valences[j - i]),
           (ring.valence[i] + load2(&ring.valence[j]) - 12) * 0.2,
           edge,
           edge * edge,
@@ -166,72 +169,86 @@ Vec3 CutModel::estimate(const RingGeometry& ring, const RingCut& cut) {
     Vec3 sum;
     int count = 0;
   } near, far;
-  for (std::uint32_t k = 0; k < ring.size; ++k) {
-    if (ring.is_virtual[k]) continue;
-    if (k >= cut.i && k <= cut.j) near.sum += ring.at[k], ++near.count;
-    if (k <= cut.i || k >= cut.j) far.sum += ring.at[k], ++far.count;
-  }
+  const auto add = [&](auto& arc, std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t k = from; k < to; ++k) {
+      if (!ring.is_virtual[k]) arc.sum += ring.at(k), ++arc.count;
+    }
+  };
+  add(near, cut.i, cut.j + 1);
+  add(far, 0, cut.i + 1);
+  add(far, cut.j, ring.size);
   return (far.sum * (1.0 / std::max(far.count, 1)) - near.sum * (1.0 / std::max(near.count, 1))) *
          kArcToEdge;
 }
 
-// Computes the features and the probability of each cut. Handles two cuts with the same first ring
-// vertex at a time.
+// Computes the features and the probability of each cut. Handles two cuts at a time; both start at
+// the same ring vertex.
 void CutModel::evaluate(const RingGeometry& ring) {
   const double inverse = 1.0 / ring.scale;
   const RingArrays arrays(ring, inverse);
-  const PrefixSums sums(ring);
+  const PrefixSums sums(ring, arrays);
+  TwoFeatures weights;
+  std::transform(weights_.begin(), weights_.end(), weights.begin(), both);
   const std::uint32_t n = ring.size;
-  count_ = 0;
-  Double2 best = both(-1e300);
+  count_ = n * (n - 1) / 2;
+  slots_ = 0;
+  Double2 best = both(kNoScore);
   for (std::uint32_t i = 0; i + 1 < n; ++i) {
-    for (std::uint32_t j = i + 1; j < n; j += 2) {
-      const TwoFeatures features = features_of(arrays, sums, n, inverse, i, j);
+    for (std::uint32_t j = i + 1; j < n; j += 2, slots_ += 2) {
+      TwoFeatures& features = features_[slots_ / 2];
+      features = features_of(arrays, sums, inverse, i, j);
       Double2 score = both(0);
       for (std::size_t k = 0; k < kFeatures; ++k)
-        score += weights_[k] * features[k];
-      const bool second = j + 1 < n;
-      if (!second) score[1] = score[0];
+        score += weights[k] * features[k];
+      const Double2 highest = kHighest[j + 1 == n ? 1 : 0];
+      score = score < highest ? score : highest;
       best = max(best, score);
-      store2(&probability_[count_], score);
-      Candidate* const candidate = &candidates_[count_];
-      candidate[0].cut = {i, j};
-      candidate[1].cut = {i, j + 1};
-      for (std::size_t k = 0; k < kFeatures; k += 2) {
-        const Double2 a = features[k], b = features[k + 1];
-        store2(&candidate[0].features[k], Double2{a[0], b[0]});
-        store2(&candidate[1].features[k], Double2{a[1], b[1]});
-      }
-      count_ += second ? 2 : 1;
+      store2(&probability_[slots_], score);
+      cuts_[slots_] = {i, j};
+      cuts_[slots_ + 1] = {i, j + 1};
     }
   }
   to_probabilities(std::max(best[0], best[1]));
 }
 
 void CutModel::to_probabilities(double best) {
-  for (std::uint32_t k = 0; k < count_; k += 2)
-    store2(&probability_[k], exact::exp_of_negative(load2(&probability_[k]) - best));
   double total = 0;
-  for (std::uint32_t k = 0; k < count_; ++k)
-    total += probability_[k];
-  for (std::uint32_t k = 0; k < count_; k += 2)
+  for (std::uint32_t k = 0; k < slots_; k += 2) {
+    const Double2 score = load2(&probability_[k]);
+    const Double2 odds = score > kNoScore ? exact::exp_of_negative(score - best) : both(0);
+    store2(&probability_[k], odds);
+    total += odds[0];
+    total += odds[1];
+  }
+  for (std::uint32_t k = 0; k < slots_; k += 2)
     store2(&probability_[k], load2(&probability_[k]) / total);
 }
 
-// Takes one step of stochastic gradient ascent on the log-probability of the chosen candidate.
+// Takes one step of stochastic gradient ascent on the log-probability of the candidate `chosen`.
 void CutModel::learn(std::uint32_t chosen) {
   const double rate = 0.02 + 0.2 / (1 + learned_ * 0.02);
   learned_ = std::min(learned_ + 1, 1u << 20);
-  Features mean{};
-  for (std::uint32_t k = 0; k < count_; ++k) {
-    const double p = std::fabs(probability_[k]);
-    if (p < kNegligible) continue;
-    for (std::size_t f = 0; f < kFeatures; ++f)
-      mean[f] += p * candidates_[k].features[f];
+  // Features 2f and 2f + 1 of candidate k.
+  const auto features = [&](std::uint32_t k, std::size_t f) {
+    return Double2{features_[k / 2][2 * f][k % 2], features_[k / 2][2 * f + 1][k % 2]};
+  };
+  // Collects the candidates without a branch, because a branch here is often mispredicted.
+  std::array<std::uint32_t, 2 * kMaxTwos> likely;
+  std::uint32_t likely_count = 0;
+  for (std::uint32_t k = 0; k < slots_; ++k) {
+    likely[likely_count] = k;
+    likely_count += std::fabs(probability_[k]) >= kNegligible ? 1 : 0;
   }
-  for (std::size_t f = 0; f < kFeatures; ++f) {
-    const double step = rate * (candidates_[chosen].features[f] - mean[f]);
-    weights_[f] = std::clamp(weights_[f] + std::clamp(step, -0.5, 0.5), -50.0, 50.0);
+  std::array<Double2, kFeatures / 2> mean;
+  mean.fill(both(0));
+  for (std::uint32_t m = 0; m < likely_count; ++m) {
+    const double p = std::fabs(probability_[likely[m]]);
+    for (std::size_t f = 0; f < mean.size(); ++f)
+      mean[f] += p * features(likely[m], f);
+  }
+  for (std::size_t f = 0; f < mean.size(); ++f) {
+    const Double2 step = clamp(rate * (features(chosen, f) - mean[f]), -0.5, 0.5);
+    store2(&weights_[2 * f], clamp(load2(&weights_[2 * f]) + step, -50.0, 50.0));
   }
 }
 

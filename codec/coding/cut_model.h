@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the two ring vertices between which a vertex split cuts the one-ring. A softmax model of
-// typical splits, trained online, ranks all pairs. Then one flag per pair is coded, starting with
-// the most likely pair, until the pair is found.
+// Codes the two ring vertices between which a vertex split cuts the one-ring. A softmax model,
+// trained online on earlier splits, ranks all pairs of ring vertices. Then one flag per pair is
+// coded, starting with the most likely pair, until the right pair is found.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "codec/core/double2.h"
 #include "codec/core/exact_math.h"
 #include "codec/core/limits.h"
 #include "codec/core/range_coder.h"
@@ -14,28 +15,35 @@
 
 namespace vitrine::inline codec {
 
-// The one-ring of the vertex to split, in an order that encoder and decoder share.
+// The one-ring of the vertex to split. Encoder and decoder list the ring vertices in the same
+// order. The arrays have one value per ring vertex; the rest of each array is undefined, because
+// clearing it takes longer than filling it.
 struct RingGeometry {
   std::uint32_t size = 0;
-  // Mean distance from the vertex to its ring vertices that are not virtual, at least 0.5.
+  // Mean distance from the vertex to its ring vertices, without virtual ones; at least 0.5.
   double scale = 1;
-  std::array<Vec3, kMaxSplitValence> at{};  // positions relative to the vertex
-  std::array<bool, kMaxSplitValence> is_virtual{};
-  std::array<std::int8_t, kMaxSplitValence> valence{};  // 6 if unknown
+  // Positions relative to the vertex. They are integers; 0 if the ring vertex is virtual.
+  std::array<double, kMaxSplitValence> x, y, z;
+  std::array<bool, kMaxSplitValence> is_virtual;
+  std::array<std::int8_t, kMaxSplitValence> valence;  // valence of each ring vertex; 6 if unknown
+
+  Vec3 at(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
+  void place(std::uint32_t k, const Vec3& p) { x[k] = p.x, y[k] = p.y, z[k] = p.z; }
 };
 
 struct RingCut {
-  // The new vertex takes the faces from ring vertex i to ring vertex j, with i < j.
+  // A cut. The new vertex takes the faces from ring vertex i to ring vertex j, with i < j.
   std::uint32_t i = 0, j = 1;
 };
 
 class CutModel {
  public:
   // D = V1 - V2 is the difference of the positions of a split's two vertices. In a regular
-  // triangulation, D is this number times the difference of the two arcs' mean positions.
+  // triangulation, D is kArcToEdge times the difference of the mean positions of the ring's two
+  // arcs.
   static constexpr double kArcToEdge = 0.7;
 
-  // Estimates D from the two arcs of the ring, in lattice units.
+  // Estimates D from the ring's two arcs, in lattice units.
   static Vec3 estimate(const RingGeometry& ring, const RingCut& cut);
 
   CutModel();
@@ -45,12 +53,12 @@ class CutModel {
     evaluate(ring);
     std::uint32_t wanted = 0;
     if constexpr (Coder::kEncodes) {
-      while (candidates_[wanted].cut.i != truth.i || candidates_[wanted].cut.j != truth.j)
+      while (cuts_[wanted].i != truth.i || cuts_[wanted].j != truth.j)
         ++wanted;
     }
     const std::uint32_t chosen = pick(coder, wanted);
     learn(chosen);
-    return candidates_[chosen].cut;
+    return cuts_[chosen];
   }
 
   static constexpr std::size_t kFeatures = 12;
@@ -60,13 +68,10 @@ class CutModel {
   const std::array<double, kFeatures>& weights() const { return weights_; }
 
  private:
-  static constexpr std::size_t kMaxPairs = kMaxSplitValence * (kMaxSplitValence - 1) / 2;
-  using Features = std::array<double, kFeatures>;
-
-  struct Candidate {
-    RingCut cut;
-    Features features{};
-  };
+  // Candidates are scored two at a time: the cuts (i, j) and (i, j + 1). If j is the last ring
+  // vertex, the second candidate of the two does not exist; its probability is 0.
+  static constexpr std::size_t kMaxTwos = (kMaxSplitValence / 2) * (kMaxSplitValence / 2);
+  using TwoFeatures = std::array<Double2, kFeatures>;
 
   void evaluate(const RingGeometry& ring);
   // Converts the scores in probability_ to probabilities. `best` is the highest score.
@@ -89,22 +94,26 @@ class CutModel {
     }
   }
 
+  // Returns the first of the candidates with the highest probability.
   std::uint32_t likeliest() const {
-    std::uint32_t best = 0;
-    double p = 0;
-    for (std::uint32_t k = 0; k < count_; ++k) {
-      if (probability_[k] > p) best = k, p = probability_[k];
+    Double2 p = both(0), best = both(0), place = {0, 1};
+    for (std::uint32_t k = 0; k < slots_; k += 2, place += 2) {
+      const Double2 next = load2(&probability_[k]);
+      best = next > p ? place : best;
+      p = max(next, p);
     }
-    return best;
+    const bool second = (p[1] > p[0]) | ((p[1] == p[0]) & (best[1] < best[0]));
+    return static_cast<std::uint32_t>(best[second ? 1 : 0]);
   }
 
-  Features weights_;
+  std::array<double, kFeatures> weights_;
   std::uint32_t learned_ = 0;
-  std::uint32_t count_ = 0;
-  // Has one extra entry because candidates are written two at a time.
-  std::array<Candidate, kMaxPairs + 1> candidates_;
-  // Per candidate: its probability, negated once its flag is coded.
-  std::array<double, kMaxPairs + 1> probability_;
+  std::uint32_t count_ = 0;  // number of candidates
+  std::uint32_t slots_ = 0;  // the same, with those that do not exist
+  std::array<TwoFeatures, kMaxTwos> features_;
+  std::array<RingCut, 2 * kMaxTwos> cuts_;
+  // Per candidate: its probability. Becomes negative once the candidate's flag is coded.
+  std::array<double, 2 * kMaxTwos> probability_;
   std::array<AdaptiveBit, kBits> bits_;
 };
 

@@ -2,15 +2,21 @@
 #include "codec/coding/displacement_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "codec/coding/trained_tables.h"
 
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kRidge = 4;  // the initial weights count as much as this many splits
+constexpr double kRidge = 4;  // weight of the initial values, as a number of splits
 constexpr std::uint32_t kSolveEvery = 16;
-constexpr double kMemory = 600;  // number of splits over which old evidence fades
+constexpr double kMemory = 600;  // number of splits after which older evidence fades
+
+// Equals std::clamp, but compiles to two instructions without a branch.
+double bounded(double x, double low, double high) {
+  return std::min(std::max(x, low), high);
+}
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double l = length(v);
@@ -24,11 +30,13 @@ Vec3 any_perpendicular(const Vec3& n) {
 
 }  // namespace
 
-void DisplacementModel::Regression::start(const double* prior) {
-  std::copy_n(prior, kFeatures, weights.begin());
+void DisplacementModel::Regression::start(const double* tangential_prior,
+                                          const double* normal_prior) {
+  std::copy_n(tangential_prior, kFeatures, tangential.begin());
+  std::copy_n(normal_prior, kFeatures, normal.begin());
   for (std::size_t k = 0; k < kFeatures; ++k) {
-    matrix[k][k] = kRidge;
-    right_side[k] = kRidge * prior[k];
+    matrix[k][k] = both(kRidge);
+    right_side[k] = kRidge * Double2{tangential[k], normal[k]};
   }
 }
 
@@ -38,8 +46,7 @@ DisplacementModel::DisplacementModel() {
   static const auto kNormal = trained::numbers_of<kKinds * kFeatures>(trained::kNormalWeights);
   static const auto kEvidence = trained::numbers_of<kClues * kLevels * 4>(trained::kEvidence);
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
-    kinds_[kind].tangential.start(&kTangential[kind * kFeatures]);
-    kinds_[kind].normal.start(&kNormal[kind * kFeatures]);
+    kinds_[kind].start(&kTangential[kind * kFeatures], &kNormal[kind * kFeatures]);
   }
   const double* start = kEvidence.data();
   for (auto& clue : evidence_) {
@@ -50,13 +57,25 @@ DisplacementModel::DisplacementModel() {
   }
 }
 
-Vec3 DisplacementModel::combine(const SplitSurroundings& s) const {
-  const KindModel& part = kinds_[s.kind];
+DisplacementModel::FeatureColumns DisplacementModel::columns_of(const SplitSurroundings& s) {
+  FeatureColumns columns;
+  for (auto* column : {&columns.x, &columns.y, &columns.z, &columns.normal})
+    column->back() = 0;
+  for (std::size_t k = 0; k < kFeatures; ++k) {
+    const Vec3& f = s.features[k];
+    columns.x[k] = f.x, columns.y[k] = f.y, columns.z[k] = f.z;
+    columns.normal[k] = dot(f, s.normal);
+  }
+  return columns;
+}
+
+Vec3 DisplacementModel::combine(const SplitSurroundings& s, const FeatureColumns& columns) const {
+  const Regression& part = kinds_[s.kind];
   Vec3 d;
   for (std::size_t k = 0; k < kFeatures; ++k) {
-    const double across = dot(s.features[k], s.normal);
-    const double tangential = part.tangential.weights[k];
-    d += s.features[k] * tangential + s.normal * (across * (part.normal.weights[k] - tangential));
+    const double tangential = part.tangential[k];
+    d +=
+        s.features[k] * tangential + s.normal * (columns.normal[k] * (part.normal[k] - tangential));
   }
   return d;
 }
@@ -99,7 +118,7 @@ std::array<double, 6> DisplacementModel::covariance(const SplitSurroundings& s,
 void DisplacementModel::learn_gaussian(const SplitSurroundings& s, const ErrorGaussian& gaussian,
                                        const Vec3& error) {
   const double inverse = 1 / (s.scale * s.scale);
-  std::array<double, 3> surprise;  // ratio of the observed to the expected variance, minus 1
+  std::array<double, 3> surprise;  // per axis: observed / expected variance, minus 1
   for (std::size_t k = 0; k < 3; ++k) {
     const double e = dot(error, gaussian.frame[k]);
     surprise[k] = std::min(e * e * inverse / gaussian.variance[k], 8.0) - 1;
@@ -109,60 +128,64 @@ void DisplacementModel::learn_gaussian(const SplitSurroundings& s, const ErrorGa
     Evidence& e = evidence_[clue][s.clues[clue]];
     const double rate = 1 / (e.seen + 1);
     for (std::size_t k = 0; k < 3; ++k)
-      e.factor[k] = std::clamp(e.factor[k] * (1 + surprise[k] * rate), 1e-3, 1e3);
-    e.bias = std::clamp(e.bias + along * rate, -1.0, 1.0);
+      e.factor[k] = bounded(e.factor[k] * (1 + surprise[k] * rate), 1e-3, 1e3);
+    e.bias = bounded(e.bias + along * rate, -1.0, 1.0);
     e.seen = std::min(e.seen + 1, kMemory);
   }
 }
 
-void DisplacementModel::learn_weights(const SplitSurroundings& s, const Vec3& d) {
-  KindModel& part = kinds_[s.kind];
+void DisplacementModel::learn_weights(const SplitSurroundings& s, const FeatureColumns& columns,
+                                      const Vec3& d) {
+  Regression& part = kinds_[s.kind];
   const double inverse = 1 / (s.scale * s.scale);
   const double d_normal = dot(d, s.normal);
-  std::array<double, kFeatures> f_normal;
-  for (std::size_t a = 0; a < kFeatures; ++a)
-    f_normal[a] = dot(s.features[a], s.normal);
-  for (std::size_t a = 0; a < kFeatures; ++a) {
-    const double along_normal = f_normal[a] * d_normal;
-    part.tangential.right_side[a] += (dot(s.features[a], d) - along_normal) * inverse;
-    part.normal.right_side[a] += along_normal * inverse;
-    for (std::size_t b = 0; b <= a; ++b) {
-      const double both_normal = f_normal[a] * f_normal[b];
-      part.tangential.matrix[a][b] += (dot(s.features[a], s.features[b]) - both_normal) * inverse;
-      part.normal.matrix[a][b] += both_normal * inverse;
+  const FeatureColumns& f = columns;
+  // A template parameter lets the compiler unroll the inner loop.
+  const auto add_row = [&]<std::size_t a>(std::integral_constant<std::size_t, a>) {
+    const double along_normal = f.normal[a] * d_normal;
+    part.right_side[a] += Double2{dot(s.features[a], d) - along_normal, along_normal} * inverse;
+    for (std::size_t b = 0; b <= a; b += 2) {
+      const Double2 along = f.normal[a] * load2(&f.normal[b]);
+      const Double2 across =
+          f.x[a] * load2(&f.x[b]) + f.y[a] * load2(&f.y[b]) + f.z[a] * load2(&f.z[b]) - along;
+      part.matrix[a][b] += Double2{across[0], along[0]} * inverse;
+      part.matrix[a][b + 1] += Double2{across[1], along[1]} * inverse;
     }
+  };
+  [&]<std::size_t... a>(std::index_sequence<a...>) {
+    (add_row(std::integral_constant<std::size_t, a>{}), ...);
   }
-  if (++part.learned % kSolveEvery == 0) {
-    part.tangential.solve();
-    part.normal.solve();
-  }
+  (std::make_index_sequence<kFeatures>{});
+  if (++part.learned % kSolveEvery == 0) part.solve();
 }
 
-// Solves the equations by Cholesky decomposition. The ridge keeps the matrix positive definite.
+// Solves the equations by Cholesky decomposition. The ridge term keeps the matrix positive
+// definite.
 void DisplacementModel::Regression::solve() {
-  std::array<std::array<double, kFeatures>, kFeatures> l{};
+  std::array<std::array<Double2, kFeatures>, kFeatures> l;
   for (std::size_t i = 0; i < kFeatures; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      double sum = matrix[i][j];
+      Double2 sum = matrix[i][j];
       for (std::size_t k = 0; k < j; ++k)
         sum -= l[i][k] * l[j][k];
-      l[i][j] = i == j ? std::sqrt(std::max(sum, 1e-6)) : sum / l[j][j];
+      l[i][j] = i == j ? sqrt(max(sum, both(1e-6))) : sum / l[j][j];
     }
   }
-  std::array<double, kFeatures> y{};
+  std::array<Double2, kFeatures> y;
   for (std::size_t i = 0; i < kFeatures; ++i) {
-    double sum = right_side[i];
+    Double2 sum = right_side[i];
     for (std::size_t k = 0; k < i; ++k)
       sum -= l[i][k] * y[k];
     y[i] = sum / l[i][i];
   }
   for (std::size_t i = kFeatures; i-- > 0;) {
-    double sum = y[i];
+    Double2 sum = y[i];
     for (std::size_t k = i + 1; k < kFeatures; ++k)
-      sum -= l[k][i] * weights[k];
-    // The weight is out of range only if hostile splits make the matrix singular.
-    const double weight = sum / l[i][i];
-    weights[i] = std::fabs(weight) < 1e3 ? weight : 0;
+      sum -= l[k][i] * Double2{tangential[k], normal[k]};
+    // Weights are this large only if hostile splits make the matrix singular.
+    const Double2 weight = sum / l[i][i];
+    const Double2 safe = abs(weight) < both(1e3) ? weight : both(0);
+    tangential[i] = safe[0], normal[i] = safe[1];
   }
 }
 

@@ -1,47 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the difference D = V1 - V2 of the positions of a split's two vertices. D is predicted as a
-// weighted sum of features of the fine one-rings; the weights are learned online (recursive least
-// squares).
+// Codes the difference D = V1 - V2 of the positions of a split's two vertices. The prediction of D
+// is a weighted sum of features of the fine one-rings. The weights are learned online by recursive
+// least squares.
 //
-// The error of the prediction is modelled as a Gaussian in a frame of three axes: the predicted
-// direction, the normal, and the direction across both. The components x, y and z of D are coded in
-// turn, each conditional on the previous ones. The variance along each axis of the frame is a
-// product with one factor per clue (SplitSurroundings::Clue). The mean along the prediction is a
-// sum with one term per clue. Factors and terms are learned online.
+// The prediction error is modelled as a Gaussian in a frame of three axes: the predicted direction,
+// the surface normal, and the direction perpendicular to both. The components x, y and z of D are
+// coded in turn, each conditional on the previous ones. The variance along an axis is a product
+// with one factor per clue (SplitSurroundings::Clue). The mean error along the predicted direction
+// is a sum with one term per clue. Factors and terms are learned online.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
 #include "codec/coding/residual_coder.h"
+#include "codec/core/double2.h"
 #include "codec/core/vec.h"
 
 namespace vitrine::inline codec {
 
-// The surroundings of a split in the mesh after pass 1 (layer_pass.h). All positions are relative
-// to v~, the position of the vertex before its split.
+// Features of the mesh around a split, computed after pass 1 (layer_pass.h). All positions are
+// relative to v~, the position of the vertex before its split.
 struct SplitSurroundings {
   static constexpr std::size_t kFeatures = 9;
-  std::array<Vec3, kFeatures> features{};  // each changes its sign if V1 and V2 are swapped
+  std::array<Vec3, kFeatures> features{};  // each changes sign if V1 and V2 are swapped
   Vec3 normal;                             // unit vector, or zero if there is no normal
-  double scale = 1;  // mean distance of the neighbours from v~, in cells, >= 0.5
+  double scale = 1;                        // mean distance of neighbours from v~, in cells, >= 0.5
 
   static constexpr std::size_t kKinds = 2;
-  // 1 if both vertices have at least five neighbours, not counting each other; else 0.
+  // 1 if each vertex of the split has at least five neighbours besides the split's other vertex;
+  // else 0.
   std::size_t kind = 0;
 
-  // Clues that indicate how large the error of the prediction is. Each clue has an integer value in
-  // [0, kLevels - 1].
+  // Clues to the size of the prediction error. Each clue has an integer value in [0, kLevels - 1].
   enum Clue : std::size_t {
     kRingSizes,
     kScale,
-    kParallelogram,  // length of the prediction by parallelograms, relative to `scale`
-    // Mean squared height of the neighbours over the plane through v~ that is perpendicular to
+    kParallelogram,  // length of the parallelogram prediction, relative to `scale`
+    // Mean squared distance of the neighbours from the plane through v~ that is perpendicular to
     // `normal`, relative to scale^2.
     kHeight,
     kDistance,  // variance of the neighbours' distances from v~, relative to scale^2
-    kSettled,   // share of the neighbours whose positions are final
-    kChord,     // distance between the two cut vertices (the chord), relative to `scale`
+    kSettled,   // share of the neighbours that have their final positions
+    kChord,     // distance between the two cut vertices, relative to `scale`
     kSlant,     // cosine of the angle between the chord and the difference of the arcs' means
     kNeighbourError,
     kNeighbourNormalError,
@@ -51,10 +52,10 @@ struct SplitSurroundings {
     kClues
   };
   static constexpr std::size_t kLevels = 24;
-  std::array<std::uint8_t, kClues> clues{};
+  std::array<std::uint8_t, kClues> clues;
 };
 
-// Squared error of a predicted D, divided by the squared scale.
+// Squared error of a predicted D, relative to scale^2: of the whole vector, and along the normal.
 struct SplitError {
   double all = 0, normal = 0;
 };
@@ -65,7 +66,8 @@ class DisplacementModel {
 
   template <class Coder>
   Vec3i code(Coder& coder, const SplitSurroundings& s, Vec3i truth, SplitError& split_error) {
-    const Vec3 linear = combine(s);
+    const FeatureColumns columns = columns_of(s);
+    const Vec3 linear = combine(s, columns);
     const ErrorGaussian gaussian = gaussian_of(s, linear);
     const Vec3 predicted = linear + gaussian.frame[0] * (gaussian.bias * s.scale);
     const Vec3i d = code_vector(coder, predicted, covariance(s, gaussian), truth);
@@ -74,7 +76,7 @@ class DisplacementModel {
     const double normal = dot(error, gaussian.frame[1]);
     split_error = {dot(error, error) * inverse, normal * normal * inverse};
     learn_gaussian(s, gaussian, error);
-    learn_weights(s, to_vec3(d));
+    learn_weights(s, columns, to_vec3(d));
     return d;
   }
 
@@ -84,36 +86,43 @@ class DisplacementModel {
   static constexpr std::size_t kLevels = SplitSurroundings::kLevels;
   using Weights = std::array<double, kFeatures>;
 
-  // The contribution of one value of one clue to the model of the error.
+  // The effect of one value of one clue on the Gaussian error model.
   struct Evidence {
-    std::array<double, 3> factor{};  // factors of the variances along the three axes of the frame
-    double bias = 0;                 // term of the mean along the prediction, in units of scale
-    double seen = 0;  // number of splits from which it was learned, including the start weight
+    std::array<double, 3> factor{};  // factors for the variances along the three axes
+    double bias = 0;  // part of the mean error along the prediction, in units of scale
+    double seen = 0;  // number of splits learned from, plus the start weight
   };
 
-  const Weights& tangential_weights(std::size_t kind) const {
-    return kinds_[kind].tangential.weights;
-  }
-  const Weights& normal_weights(std::size_t kind) const { return kinds_[kind].normal.weights; }
+  const Weights& tangential_weights(std::size_t kind) const { return kinds_[kind].tangential; }
+  const Weights& normal_weights(std::size_t kind) const { return kinds_[kind].normal; }
   const auto& evidence() const { return evidence_; }
   const ResidualCoder& residuals() const { return coder_; }
-  static constexpr double kPriorWeight = 60;  // weight of the evidence's start values, in splits
+  static constexpr double kPriorWeight = 60;  // weight of the start values, in splits
 
  private:
-  Vec3 combine(const SplitSurroundings& s) const;
+  // Rows have an even size, so that they can be handled two elements at a time.
+  static constexpr std::size_t kRow = kFeatures + kFeatures % 2;
+
+  // The features as one array per coordinate, and their dot products with the normal.
+  struct FeatureColumns {
+    std::array<double, kRow> x, y, z, normal;
+  };
+  static FeatureColumns columns_of(const SplitSurroundings& s);
+
+  Vec3 combine(const SplitSurroundings& s, const FeatureColumns& columns) const;
 
   struct ErrorGaussian {
-    std::array<Vec3, 3> frame;         // unit vectors: along the prediction, normal, across
+    std::array<Vec3, 3> frame;  // unit vectors along the prediction, the normal and across both
     std::array<double, 3> variance{};  // along the axes of the frame, in units of scale squared
-    double bias = 0;                   // mean along the prediction, in units of scale
+    double bias = 0;                   // mean error along the prediction, in units of scale
   };
 
   ErrorGaussian gaussian_of(const SplitSurroundings& s, const Vec3& linear) const;
-  // Returns the covariance matrix in lattice axes: xx, xy, xz, yy, yz, zz.
+  // Returns the covariance matrix in lattice coordinates, in the order xx, xy, xz, yy, yz, zz.
   static std::array<double, 6> covariance(const SplitSurroundings& s,
                                           const ErrorGaussian& gaussian);
   void learn_gaussian(const SplitSurroundings& s, const ErrorGaussian& gaussian, const Vec3& error);
-  void learn_weights(const SplitSurroundings& s, const Vec3& d);
+  void learn_weights(const SplitSurroundings& s, const FeatureColumns& columns, const Vec3& d);
 
   template <class Coder>
   Vec3i code_vector(Coder& coder, const Vec3& mean, const std::array<double, 6>& c, Vec3i truth) {
@@ -131,25 +140,22 @@ class DisplacementModel {
     return d;
   }
 
-  static constexpr double kGrain = 0.12;  // variance of rounding to the lattice, plus a margin
+  static constexpr double kGrain = 0.12;  // variance from rounding to the lattice, plus a margin
 
-  // Recursive least squares for the normal part or the tangential part of D, which is predicted
-  // from the same part of the features.
+  // Recursive least squares for the tangential and the normal part of D. The inputs are the
+  // corresponding parts of the features. Each pair of numbers belongs to the tangential and to the
+  // normal part. Only matrix[a][b] with b <= a is used.
   struct Regression {
-    std::array<double, kFeatures> weights{};
-    std::array<std::array<double, kFeatures>, kFeatures> matrix{};
-    std::array<double, kFeatures> right_side{};
+    Weights tangential{}, normal{};
+    std::array<std::array<Double2, kRow>, kFeatures> matrix{};
+    std::array<Double2, kFeatures> right_side{};
+    std::uint32_t learned = 0;
 
-    void start(const double* prior);
+    void start(const double* tangential_prior, const double* normal_prior);
     void solve();
   };
 
-  struct KindModel {
-    Regression tangential, normal;
-    std::uint32_t learned = 0;
-  };
-
-  std::array<KindModel, kKinds> kinds_;
+  std::array<Regression, kKinds> kinds_;
   std::array<std::array<Evidence, kLevels>, kClues> evidence_;
   ResidualCoder coder_;
 };

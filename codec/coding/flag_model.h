@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes whether a vertex splits in a level.
+// Codes whether a vertex splits in a level, one flag per vertex.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 namespace vitrine::inline codec {
 
 struct FlagFeatures {
-  // Whether the vertex is adjacent to another region. If so, only `age` is used.
+  // Whether the vertex has a neighbour in another region. If so, the model uses only `age`.
   bool is_border = false;
   int age = 1;  // levels since the last split of the vertex, >= 1
   int valence = 6;
-  int unsplit = 0;           // neighbours visited in this level that did not split
-  int split = 0;             // neighbours visited in this level that split
-  double square_length = 0;  // mean squared length of the edges to neighbours that are not virtual
+  int unsplit = 0;           // neighbours visited earlier in this level that did not split
+  int split = 0;             // neighbours visited earlier in this level that split
+  double square_length = 0;  // mean squared edge length to non-virtual neighbours
 };
 
 class FlagModel {

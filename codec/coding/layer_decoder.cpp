@@ -11,7 +11,7 @@ namespace vitrine::inline codec {
 
 namespace {
 
-// Allocates the pass on the heap, because its models are too large for a WebAssembly stack.
+// Allocates the pass on the heap, because its models do not fit on a WebAssembly stack.
 Expected<ChunkSplits> decode_splits(MeshState& mesh, const ChunkFrame& frame, RangeDecoder& coder) {
   NoTruth truth;
   return std::make_unique<LayerPass<RangeDecoder, NoTruth>>(mesh, frame, coder, truth)->run();

@@ -18,9 +18,9 @@ struct LayerChange {
   std::vector<InsertedComponent> components;  // inserted after all splits
 };
 
-// Decodes one chunk into `mesh`. `node` is the chunk's region in `tree`. If this region forks in
-// the next level, the chunk also states the child region of each vertex. Safe on hostile bytes.
-// After an error, `mesh` can be destroyed safely but must not be used.
+// Decodes one chunk and applies it to `mesh`. `node` is the index of the chunk's region in `tree`.
+// If the region forks in the next level, the chunk also codes the child region of each vertex. Safe
+// on hostile bytes. After an error, `mesh` can be destroyed safely but must not be used.
 Expected<LayerChange> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
                                    std::uint32_t node, std::span<const std::uint8_t> bytes);
 

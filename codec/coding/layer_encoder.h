@@ -22,20 +22,20 @@ struct EncodedChunk {
   std::vector<std::uint8_t> bytes;
 };
 
-// Replays a hierarchy level by level, starting from the base mesh, and encodes each chunk.
+// Encodes a hierarchy, level by level, starting from the base mesh.
 class LayerEncoder {
  public:
-  // Returns an encoder at level 0. `base` is the base mesh, with its vertices in the order of the
-  // decoded Draco buffer. fine_ids[v] is the hierarchy's id of base vertex v.
+  // Returns an encoder at level 0. `base` has its vertices in the order of the decoded Draco
+  // buffer. fine_ids[v] is the hierarchy's id of vertex v of `base`.
   static Expected<LayerEncoder> start(const Hierarchy& hierarchy, const BaseMesh& base,
                                       std::vector<VertexId> fine_ids);
 
   // Encodes the next level. The first call encodes level 1.
   Expected<std::vector<EncodedChunk>> encode_level();
 
-  // The steps of encode_level(), for use with coders other than RangeEncoder. Call begin_level()
-  // once, then code_chunk() for each chunk that it returns, then end_level(). code_chunk() calls
-  // observe(pass) with the chunk's LayerPass once the splits of the chunk are coded.
+  // The steps of encode_level(), for use with other coders than RangeEncoder. Call begin_level()
+  // once, then code_chunk() for each returned chunk, then end_level(). code_chunk() calls
+  // observe(pass) with the chunk's LayerPass once the chunk's splits are coded.
   std::vector<EncodedChunk> begin_level();
   template <class Coder, class Observer>
   Expected<void> code_chunk(Coder& coder, const EncodedChunk& chunk, const Observer& observe);
@@ -43,6 +43,8 @@ class LayerEncoder {
 
   std::uint32_t level() const { return level_; }  // 0 for the base mesh
   const MeshState& mesh() const { return mesh_; }
+  // Returns for each vertex of mesh() its id in the hierarchy.
+  const std::vector<VertexId>& fine_ids() const { return fine_; }
 
  private:
   LayerEncoder(const Hierarchy& hierarchy, MeshState mesh)
@@ -53,13 +55,15 @@ class LayerEncoder {
 
   const Hierarchy* hierarchy_;
   MeshState mesh_;
-  std::vector<VertexId> fine_;  // per vertex of mesh_: its fine id
-  // Per fine id: its vertex of mesh_, or 0xFFFFFFFF if it does not exist yet.
+  std::vector<VertexId> fine_;  // per vertex of mesh_: its id in the hierarchy
+  // Per id in the hierarchy: the vertex of mesh_ with this id, or 0xFFFFFFFF if it does not exist
+  // yet.
   std::vector<VertexId> state_;
-  // Per fine id: index of the collapse that the vertex's split undoes, in the level being encoded.
-  // 0xFFFFFFFF if the vertex does not split in this level.
+  // Per id in the hierarchy: index of the collapse that the vertex's split undoes in the level
+  // being encoded, or 0xFFFFFFFF if the vertex does not split.
   std::vector<std::uint32_t> collapse_of_;
-  // Per fine id: its cell in the level being encoded. Empty if the lattice stays the same.
+  // Per id in the hierarchy: the vertex's cell in the level being encoded. Empty if the lattice
+  // stays the same.
   std::vector<Vec3i> cell_;
   std::uint32_t level_ = 0;
 };

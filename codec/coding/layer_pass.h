@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes one chunk, which refines one region from level l - 1 to level l. Encoder and decoder run
-// the same pass over the same state, so they cannot diverge. The encoder uses a RangeEncoder, which
-// writes each value; the decoder uses a RangeDecoder, which reads it.
+// the same pass over the same state, so they cannot diverge. The encoder passes a RangeEncoder,
+// which writes each value. The decoder passes a RangeDecoder, which reads it.
 //
 // If the level's lattice is finer than that of the previous level, the low bits of the region's
 // vertices are coded first.
 //
-// Pass 1 visits the region's vertices in descending lexicographic order of their positions. The
-// collapses were performed in ascending order, so each split finds the one-ring that its collapse
-// left. For each vertex, pass 1 codes a split flag. If the vertex splits, pass 1 also codes the cut
-// pair and splits the vertex with an estimate of D = V1 - V2. Pass 2 codes the exact D of each
-// split.
+// Pass 1 visits the region's vertices in descending lexicographic order of position and codes a
+// split flag for each. If the vertex splits, pass 1 also codes the cut pair, and splits the vertex
+// with an estimate of D = V1 - V2. Collapses were made in ascending order, so each split finds the
+// same one-ring that its collapse left. Pass 2 codes the exact D of each split.
 //
-// No context depends on the order in which regions are refined. If a vertex splits, its neighbours
-// in other regions do not split in the same level. The split flag of a vertex next to another
-// region (VertexRecord::is_border) is coded without features of its surroundings.
+// The contexts of the models do not depend on the order in which regions are refined. If a vertex
+// splits, its neighbours in other regions do not split in the same level. The split flag of a
+// vertex next to another region (VertexRecord::is_border) is coded without the vertex's
+// surroundings.
 #pragma once
 
 #include <algorithm>
@@ -29,20 +29,21 @@
 #include "codec/coding/mesh_state.h"
 #include "codec/coding/surroundings.h"
 #include "codec/coding/visiting_order.h"
+#include "codec/coding/wedge_placement.h"
 #include "codec/core/expected.h"
 #include "codec/format/chunk_frame.h"
 #include "codec/format/placement.h"
 
 namespace vitrine::inline codec {
 
-// A split as recorded by the encoder. Vertex ids are those of the mesh state.
+// A split recorded by the encoder. Vertex ids are those of the mesh state.
 struct SplitTruth {
-  // The new vertex takes the faces from q_i around to q_j. Both may be virtual.
+  // The new vertex takes the faces from q_i around to q_j. Either may be virtual.
   VertexId qi = 0, qj = 0;
   Vec3i d;                       // cell of v minus cell of the new vertex
   AttributeTuple attribute_d{};  // the same difference for each attribute of the mesh
 
-  // Negates the differences. Called if v and the new vertex change roles.
+  // Negates the differences, because v and the new vertex have swapped roles.
   void negate() {
     d = Vec3i{} - d;
     for (Vec3i& difference : attribute_d)
@@ -54,8 +55,8 @@ struct SplitTruth {
 //  bool find(VertexId v, SplitTruth&)   returns whether v splits; if so, describes the split
 //  Vec3i cell(VertexId v)               returns the cell of v on a refined lattice
 //  void applied(VertexId v, VertexId w, bool swapped)
-//                                       is called after v was split into v and w; `swapped`
-//                                       tells that v and w have changed roles
+//                                       is called after v was split into v and w; `swapped` is
+//                                       true if v and w have swapped roles
 struct NoTruth {
   bool find(VertexId, SplitTruth&) { return false; }
   Vec3i cell(VertexId) { return {}; }
@@ -69,15 +70,16 @@ class LayerPass {
       : mesh_(mesh), frame_(frame), coder_(coder), truth_(truth) {}
 
   Expected<ChunkSplits> run() {
-    // Each vertex splits at most once. The check bounds the memory used, whatever number of splits
-    // the header states.
+    // Each vertex splits at most once. This check bounds the memory, even if the header states more
+    // splits.
     if (frame_.splits > mesh_.members[frame_.region].size()) return damaged("too many splits");
     refine_lattice();
     if (auto ok = split_all(); !ok) return tl::unexpected(std::move(ok.error()));
-    errors_.reserve(chunk_.size());
-    while (errors_.size() < chunk_.size()) {
+    placed_.reserve(chunk_.size());
+    while (placed_.size() < chunk_.size()) {
       if (!place()) return damaged("a vertex leaves the lattice");
     }
+    if (!mesh_.wedges.empty()) relax_wedges(mesh_, chunk_);
     return std::move(chunk_);
   }
 
@@ -88,8 +90,8 @@ class LayerPass {
  private:
   Unexpected damaged(const char* what) const { return damaged_chunk(frame_, what); }
 
-  // If the level's lattice is finer, codes the low bits of the positions, with equal probabilities.
-  // These bits are nearly random, because a cell is about as large as the error of the level.
+  // Codes the low bits of the positions if the level's lattice is finer. All bit values have equal
+  // probability, because a cell is about as large as the level's error.
   void refine_lattice() {
     mesh_.shift = frame_.shift, mesh_.foreign_shift = frame_.shift_before;
     const auto bits = static_cast<int>(frame_.shift_before - frame_.shift);
@@ -124,6 +126,7 @@ class LayerPass {
   void reserve_splits() {
     std::vector<VertexId>& members = mesh_.members[frame_.region];
     members.reserve(members.size() + frame_.splits);
+    mesh_.wedges.begin_chunk();
     chunk_.first_vertex = mesh_.vertex_count();
     chunk_.first_face = mesh_.connectivity.face_count();
     chunk_.splits.reserve(frame_.splits);
@@ -136,8 +139,8 @@ class LayerPass {
     OneRing ring;
     const bool fits = gather_ring(mesh_, v, ring);
     const FlagFeatures features = flag_features(mesh_, v, ring, frame_.level);
-    // A vertex with too high a valence cannot split and has no flag. A border vertex always has a
-    // flag, because its valence depends on the order of the regions.
+    // A vertex whose valence is too high cannot split, so it has no flag. A border vertex always
+    // has a flag, because its valence depends on the order in which regions are refined.
     if (!fits && !features.is_border) return {};
     SplitTruth told;
     const bool split = flags_.code(coder_, features, truth_.find(v, told));
@@ -145,6 +148,7 @@ class LayerPass {
     if (!split) return {};
     if (!fits) return damaged("a split at too high a valence");
     if (chunk_.size() == frame_.splits) return damaged("too many splits");
+    start_canonically(mesh_, ring);
     apply(v, ring, told);
     return {};
   }
@@ -153,8 +157,8 @@ class LayerPass {
     RingCut cut;
     bool is_swapped = false;
     if constexpr (Coder::kEncodes) {
-      // Returns the index of q in the ring. At most one ring vertex is virtual, because no
-      // vertex is on two boundary loops.
+      // Returns the index of q in the ring. All virtual vertices count as equal: a ring has at most
+      // one, because a vertex is on at most one boundary loop.
       const auto at = [&](VertexId q) {
         std::uint32_t k = 0;
         while (ring.vertices[k] != q && !(is_virtual(ring.vertices[k]) && is_virtual(q)))
@@ -177,6 +181,7 @@ class LayerPass {
     mesh_.inherit(v);
     update_records(v, w, ring, cut);
     estimate(v, w, merged, CutModel::estimate(around, cut));
+    if (!mesh_.wedges.empty()) split_wedges(v, w, merged, ring, cut);
     chunk_.splits.push_back({v, merged});
     if constexpr (Coder::kEncodes) {
       if (is_swapped) told.negate();
@@ -190,7 +195,10 @@ class LayerPass {
       VertexRecord& record = mesh_.vertex[u];
       record.split_level = record.visited_level = static_cast<std::uint8_t>(frame_.level);
       record.split_of = static_cast<std::uint32_t>(chunk_.size());
-      if (record.is_border) mesh_.mark_border(u);
+    }
+    if (mesh_.vertex[v].is_border) {
+      mesh_.vertex[v].is_border = touches_others(ring, cut.j, cut.i);
+      mesh_.vertex[w].is_border = touches_others(ring, cut.i, cut.j);
     }
     const std::uint32_t taken = cut.j - cut.i;
     mesh_.vertex[v].valence = static_cast<std::uint8_t>(ring.size - taken + 2);
@@ -200,11 +208,40 @@ class LayerPass {
     }
   }
 
-  // Places the two vertices at their estimated positions, where they stay until pass 2.
+  // Returns whether a ring vertex from number `from` counter-clockwise to number `to` belongs to
+  // another region.
+  bool touches_others(const OneRing& ring, std::uint32_t from, std::uint32_t to) const {
+    for (std::uint32_t k = from;; k = k + 1 == ring.size ? 0 : k + 1) {
+      const VertexId q = ring.vertices[k];
+      if (!is_virtual(q) && mesh_.vertex[q].region != frame_.region) return true;
+      if (k == to) return false;
+    }
+  }
+
+  // Moves the two vertices to their estimated positions, which they keep until pass 2.
   void estimate(VertexId v, VertexId w, const Vec3i& merged, const Vec3& d) {
     const Vec3i half = {exact::round(d.x * 0.5), exact::round(d.y * 0.5), exact::round(d.z * 0.5)};
     mesh_.positions[v] = merged + half;
     mesh_.positions[w] = merged - half;
+  }
+
+  void split_wedges(VertexId v, VertexId w, const Vec3i& merged, const OneRing& ring,
+                    const RingCut& cut) {
+    const auto between = [&](VertexId from, VertexId to) {
+      if (is_virtual(from) || is_virtual(to)) return 0.0;
+      return length(
+          to_vec3(mesh_.seen_from(frame_.region, from) - mesh_.seen_from(frame_.region, to)));
+    };
+    const VertexId qi = ring.vertices[cut.i], qj = ring.vertices[cut.j];
+    mesh_.wedges.split(w, std::span<const Corner>(ring.corners.data(), ring.size), cut.i, cut.j,
+                       [&] {
+                         return SplitEdgeLengths{.v_qi = between(v, qi),
+                                                 .w_qi = between(w, qi),
+                                                 .v_qj = between(v, qj),
+                                                 .w_qj = between(w, qj),
+                                                 .v_w = between(v, w)};
+                       });
+    place_wedges(mesh_, v, w, merged);
   }
 
   // Returns the term r of pyramid placement (placement.h). Midpoint placement has the same r for
@@ -225,12 +262,13 @@ class LayerPass {
     return pyramid_term({opposite.data(), m}, {others.data(), n}, frame_.parity);
   }
 
-  // Codes D of the next split and moves its two vertices to their final positions.
+  // Codes D of the next split and moves the split's two vertices to their final positions.
   bool place() {
-    const std::size_t s = errors_.size();
-    const SplitSurroundings around = split_surroundings(mesh_, chunk_, errors_);
-    const Vec3i d = displacements_.code(coder_, around, Coder::kEncodes ? told_[s].d : Vec3i{},
-                                        errors_.emplace_back());
+    const std::size_t s = placed_.size();
+    const SplitSurroundings around = split_surroundings(mesh_, chunk_, placed_);
+    PlacedSplit& placed = placed_.emplace_back();
+    const Vec3i d =
+        displacements_.code(coder_, around, Coder::kEncodes ? told_[s].d : Vec3i{}, placed.error);
     const Vec3i term = terms_.empty() ? midpoint_term(frame_.parity) : terms_[s];
     const SplitPair pair = unmerge(cell_of(chunk_.splits[s].merged, frame_.shift), d, term);
     if (!is_in_coordinate_bound(pair.v1) || !is_in_coordinate_bound(pair.v2)) return false;
@@ -238,6 +276,7 @@ class LayerPass {
     if (!is_in_coordinate_bound(v) || !is_in_coordinate_bound(w)) return false;
     mesh_.positions[chunk_.v(s)] = v;
     mesh_.positions[chunk_.w(s)] = w;
+    placed.d = to_vec3(v - w);
     for (std::size_t i = 0; i < mesh_.attributes.size(); ++i) {
       if (!place_attribute(i, s)) return false;
     }
@@ -261,15 +300,15 @@ class LayerPass {
   FlagModel flags_;
   CutModel cuts_;
   DisplacementModel displacements_;
-  std::array<AttributeModel, kSemantics> attributes_;  // per attribute of the mesh
+  std::array<AttributeModel, kSemantics> attributes_;  // one entry per attribute of the mesh
   ChunkSplits chunk_;
-  std::vector<Vec3i> terms_;        // pyramid placement only: r of each split
-  std::vector<SplitError> errors_;  // errors of the splits placed so far
+  std::vector<Vec3i> terms_;         // term r of each split; only for pyramid placement
+  std::vector<PlacedSplit> placed_;  // the splits placed so far
   struct ToldDifference {
     Vec3i d;
     AttributeTuple attribute_d;
   };
-  std::vector<ToldDifference> told_;  // encoder only: the differences of each split
+  std::vector<ToldDifference> told_;  // encoder only: the recorded differences of each split
 };
 
 }  // namespace vitrine::inline codec

@@ -15,6 +15,10 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shi
   mesh.ordinals.assign(leaves, 0);
   add_columns(mesh.attributes, base.attributes);
   if (auto ok = mesh.add(base, 0, 0); !ok) return tl::unexpected(std::move(ok.error()));
+  if (base.atlas.empty()) return mesh;
+  auto wedges = Wedges::from_base(base.atlas, mesh.connectivity);
+  if (!wedges) return tl::unexpected(std::move(wedges.error()));
+  mesh.wedges = std::move(*wedges);
   return mesh;
 }
 
@@ -59,7 +63,7 @@ void MeshState::remove(const InsertedComponent& newest) {
 void MeshState::fetch_rings(std::span<const VertexId>, std::size_t) const {}
 #else
 void MeshState::fetch_rings(std::span<const VertexId> order, std::size_t k) const {
-  constexpr std::size_t kRings = 8, kSteps = 6;  // few rings are longer than kSteps
+  constexpr std::size_t kRings = 8, kSteps = 6;  // few rings have more than kSteps vertices
   if (k % kRings != 0) return;
   const auto soon = order.subspan(std::min(k + kRings, order.size()));
   std::array<Corner, kRings> corner;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the fork of a region at the end of the region's last chunk: the child region of each
-// vertex, in the order of the vertex indices. The planes in the header predict the child regions.
-// The predictions are nearly always right, because regions are convex.
+// Codes how a region forks at the end of its last chunk: the child region of each vertex, in the
+// order of vertex indices. The split planes in the header predict the child regions. Nearly all
+// predictions are right, because regions are convex.
 #pragma once
 
 #include <utility>
@@ -12,9 +12,10 @@
 
 namespace vitrine::inline codec {
 
-// Divides the vertices of a node of `tree` among the regions of `level`. Children of the node that
-// also fork in `level` are divided, too. The vertices of each region keep their order. Then updates
-// the border marks of these vertices. `truth(v)` returns the leaf of v; only an encoder calls it.
+// Divides the vertices of a node of `tree` among the regions of `level`. If a child of the node
+// also forks in `level`, its vertices are divided again. The vertices of each region keep their
+// order. Then updates the border flags of these vertices. `truth(v)` returns the leaf of v; only an
+// encoder calls it.
 template <class Coder, class Truth>
 void code_fork(MeshState& mesh, Coder& coder, const RegionTree& tree, std::uint32_t node,
                std::uint32_t level, const Truth& truth) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes an integer whose distribution is roughly a Gaussian of known centre and width. Codes the
-// difference from the rounded centre: whether it is zero, then its sign, exponent and mantissa. The
-// contexts of these bits depend on the width.
+// Codes an integer that follows roughly a Gaussian with known centre and standard deviation. First
+// codes whether the integer equals the rounded centre, then the sign, exponent and mantissa of the
+// difference. The contexts of these bits depend on the standard deviation.
 #pragma once
 
 #include <array>
@@ -34,18 +34,18 @@ class ResidualCoder {
     return negative ? whole - coded : whole + coded;
   }
 
-  static constexpr int kWidths = 48;  // widths from 2^-2 to 2^10, in steps of a quarter octave
-  // Number of exponents with their own context; larger ones use the last.
+  static constexpr int kWidths = 48;  // classes of `width`, from 2^-2 to 2^10 in steps of 2^0.25
+  // Number of exponents with a context of their own. Larger exponents share the last context.
   static constexpr int kExponents = 12;
-  // Number of ranges of the exponent relative to the width. They select the contexts of the
-  // mantissa.
+  // Number of classes of the exponent relative to the width. The class selects the mantissa's
+  // contexts.
   static constexpr int kRanges = 8;
   static constexpr std::size_t kBits =
       kWidths * 3 + kWidths / 2 * 5 + kWidths * kExponents + kRanges * 4;
   const std::array<AdaptiveBit, kBits>& bits() const { return bits_; }
 
  private:
-  static constexpr int kMaxExponent = 20;  // so magnitudes are below 2^21
+  static constexpr int kMaxExponent = 20;  // magnitudes stay below 2^21
 
   static std::size_t index(int context) { return static_cast<std::size_t>(context); }
   static std::size_t zero(int w, int offset) { return index(w * 3 + offset); }

@@ -1,57 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/coding/surroundings.h"
 
+#include <algorithm>
+
 namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint32_t kMaxNeighbours = 64;
+constexpr std::uint32_t kNoSplit = 0xFFFF'FFFFu;
 
-// The neighbours of one of a split's two vertices, without its partner, in order from the first cut
-// vertex to the second.
+// The neighbours of one vertex of a split, without the split's other vertex. They are in order from
+// the first cut vertex to the second.
 struct HalfRing {
   std::uint32_t size = 0;
-  // Corners at the vertex. The next corner in the same face is at the neighbour.
+  // Corners at the vertex, one for each neighbour. The neighbour is at the next corner of the same
+  // face.
   std::array<Corner, kMaxNeighbours> corners;
   std::array<VertexId, kMaxNeighbours> vertices;
 };
 
-// Returns the corner at v in the new face (v, w, q_j) of the split. The next corner is at w.
+// Returns the corner at v in the split's new face (v, w, q_j). The face's next corner is at w.
 Corner corner_of_v(const ChunkSplits& chunk, std::size_t s) {
   return 3 * (chunk.face(s) + 1);
 }
-// Returns the corner at w in the new face (v, q_i, w) of the split. The next corner is at v.
+// Returns the corner at w in the split's new face (v, q_i, w). The face's next corner is at v.
 Corner corner_of_w(const ChunkSplits& chunk, std::size_t s) {
   return 3 * chunk.face(s) + 2;
 }
 
 HalfRing half_ring(const MeshState& mesh, Corner towards_partner) {
   HalfRing half;
-  half.vertices[0] = kVirtualBit;  // stays virtual if the half ring is empty
+  half.vertices[0] = kVirtualBit;  // if there are no neighbours, the first vertex counts as virtual
+  std::uint32_t size = 0;
   for (Corner c = mesh.connectivity.swing(towards_partner);
-       c != towards_partner && half.size < kMaxNeighbours; c = mesh.connectivity.swing(c)) {
-    half.corners[half.size] = c;
-    half.vertices[half.size++] = mesh.connectivity.neighbour(c);
+       c != towards_partner && size < kMaxNeighbours; c = mesh.connectivity.swing(c)) {
+    half.corners[size] = c;
+    half.vertices[size++] = mesh.connectivity.neighbour(c);
   }
+  half.size = size;
   return half;
 }
 
-// The positions of a half ring's vertices as a chunk of `region` uses them, relative to `origin`.
-// Positions and lengths are undefined for virtual vertices.
+// The positions of a half ring's vertices that a chunk of `region` uses (MeshState::seen_from()),
+// relative to the `origin` of spokes_of(). Positions and lengths of virtual vertices are undefined.
 struct Spokes {
   std::array<double, kMaxNeighbours> x, y, z, length;
   std::array<bool, kMaxNeighbours> is_own;  // whether the vertex belongs to `region`
+  // The split of this chunk that the vertex belongs to, or kNoSplit.
+  std::array<std::uint32_t, kMaxNeighbours> split;
 
   Vec3 at(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
 };
 
-Spokes spokes_of(const MeshState& mesh, const HalfRing& half, std::uint16_t region,
+// `centre` is the record of the vertex at which the half ring is.
+Spokes spokes_of(const MeshState& mesh, const HalfRing& half, const VertexRecord& centre,
                  const Vec3i& origin) {
   Spokes spokes;
   for (std::uint32_t k = 0; k < half.size; ++k) {
     const VertexId q = half.vertices[k];
-    spokes.is_own[k] = mesh.region_of(q) == region;
+    spokes.is_own[k] = false, spokes.split[k] = kNoSplit;
     if (is_virtual(q)) continue;
-    const Vec3 p = to_vec3(mesh.seen_from(region, q) - origin);
+    const VertexRecord& record = mesh.vertex[q];
+    spokes.is_own[k] = record.region == centre.region;
+    // Only this chunk splits vertices of its region in its level, which is that of `centre`.
+    const bool split = spokes.is_own[k] & (record.split_level == centre.split_level);
+    spokes.split[k] = record.split_of | (kNoSplit * static_cast<std::uint32_t>(!split));
+    const Vec3 p = to_vec3(mesh.seen_from(centre.region, q) - origin);
     spokes.x[k] = p.x, spokes.y[k] = p.y, spokes.z[k] = p.z;
     spokes.length[k] = length(p);
   }
@@ -72,62 +86,53 @@ struct HalfFeatures {
   double distance = 0;
 };
 
+// Sums over the neighbours of a split's vertices that also split in this level. D is the difference
+// of the positions of a split's two vertices (displacement_model.h).
 struct NeighbourSplits {
   Mean d;
-  SplitError error;  // sum of the prediction errors of the splits whose D is in `d`
-  // Number of neighbours that split in this level and whose D is still an estimate.
+  SplitError error;  // sum of the prediction errors of the splits counted in `d`
+  // Number of neighbours that split in this level, but whose D is not yet known.
   int pending = 0;
 };
 
-// Predicts the split vertex by the parallelogram rule, from the neighbours k and k + 1 and the
-// vertex beyond the edge between them (the tip). Adds the prediction and the tip to `f`, unless one
-// of the three vertices is in another region.
+// Predicts the position of a split's vertex by the parallelogram rule from three vertices: the
+// neighbours k and k + 1, and the tip, which lies across the edge between these two. Adds the
+// prediction and the tip to the two means, unless one of the three vertices is in another region.
 void add_parallelogram(const MeshState& mesh, const HalfRing& half, const Spokes& spokes,
                        std::uint32_t k, std::uint16_t region, const Vec3i& origin,
-                       HalfFeatures& f) {
+                       Mean& parallelogram, Mean& tips) {
   if (!spokes.is_own[k] || !spokes.is_own[k + 1]) return;
   const VertexId tip = mesh.connectivity.vertex(mesh.connectivity.opposite(half.corners[k]));
   if (mesh.region_of(tip) != region) return;
   const Vec3 across = to_vec3(mesh.positions[tip] - origin);
-  f.parallelogram.add(spokes.at(k) + spokes.at(k + 1) - across);
-  f.tip.add(across);
-}
-
-void add_neighbour_split(const MeshState& mesh, const ChunkSplits& chunk,
-                         std::span<const SplitError> errors, VertexId q, const Vec3& sense,
-                         NeighbourSplits& out) {
-  const std::uint32_t t = mesh.vertex[q].split_of;
-  if (t >= chunk.size() || (chunk.v(t) != q && chunk.w(t) != q)) return;
-  if (t >= errors.size()) {
-    ++out.pending;
-    return;
-  }
-  const Vec3 d = to_vec3(mesh.positions[chunk.v(t)] - mesh.positions[chunk.w(t)]);
-  out.d.add(dot(d, sense) < 0 ? d * -1.0 : d);
-  out.error.all += errors[t].all;
-  out.error.normal += errors[t].normal;
+  parallelogram.add(spokes.at(k) + spokes.at(k + 1) - across);
+  tips.add(across);
 }
 
 HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, const Spokes& spokes,
                            std::uint16_t region, const Vec3i& origin) {
-  HalfFeatures f;
+  // Separate variables stay in registers, and need no clearing of a whole HalfFeatures.
+  Mean all, inner, parallelogram, tip;
+  Vec3 shoulders;
+  double distance = 0;
+  const auto is_real = [&](std::uint32_t k) { return !is_virtual(half.vertices[k]); };
   for (std::uint32_t k = 0; k < half.size; ++k) {
-    if (is_virtual(half.vertices[k])) continue;
-    const Vec3 p = spokes.at(k);
-    f.all.add(p);
-    f.distance += spokes.length[k];
-    if (k > 0 && k + 1 < half.size) {
-      f.inner.add(p);
-      if (k == 1) f.shoulders += p;
-      if (k + 2 == half.size) f.shoulders += p;
-    }
-    if (k + 1 < half.size) add_parallelogram(mesh, half, spokes, k, region, origin, f);
+    if (is_real(k)) all.add(spokes.at(k)), distance += spokes.length[k];
   }
-  return f;
+  for (std::uint32_t k = 0; k + 1 < half.size; ++k)
+    add_parallelogram(mesh, half, spokes, k, region, origin, parallelogram, tip);
+  for (std::uint32_t k = 1; k + 1 < half.size; ++k) {
+    if (is_real(k)) inner.add(spokes.at(k));
+  }
+  if (half.size > 2) {
+    if (is_real(1)) shoulders += spokes.at(1);
+    if (is_real(half.size - 2)) shoulders += spokes.at(half.size - 2);
+  }
+  return {all, inner, parallelogram, tip, shoulders, distance};
 }
 
-// Computes the area vector of a closed outline: the half ring of v from q_j around to q_i, then the
-// half ring of w.
+// Computes the area vector of the closed outline of a split: the half ring of v from q_j to q_i,
+// then the half ring of w.
 class OutlineArea {
  public:
   void add(const HalfRing& half, const Spokes& spokes) {
@@ -159,15 +164,17 @@ Vec3 unit(const Vec3& v) {
   return l > 1e-9 ? v * (1 / l) : Vec3{};
 }
 
-// Returns floor(2^kFraction log2 x) - least, clamped to [0, count - 1].
+// Returns floor(2^kFraction * log2(x)) - least, clamped to [0, count - 1].
 template <int kFraction>
 std::uint8_t level_of(double x, int least, int count) {
   const int level = exact::log2_bucket<kFraction>(x + 1e-6) - least;
   return static_cast<std::uint8_t>(std::clamp(level, 0, count - 1));
 }
 
-// Measures how unevenly the neighbours lie, by two sums: of the squared heights over the plane
-// through v~, and of the squared deviations of the distances from the mean distance, `scale`.
+// Measures how uneven the surface is around v~, the vertex before the split. `height` and
+// `distance` are sums over the real neighbours of v~. `height` sums squared distances from the
+// tangent plane at v~. `distance` sums the squared differences between the neighbours' distances
+// from v~ and their mean distance.
 struct Unevenness {
   double height = 0, distance = 0;
   int count = 0;
@@ -184,21 +191,32 @@ struct Unevenness {
 }  // namespace
 
 bool gather_ring(const MeshState& mesh, VertexId v, OneRing& ring) {
-  std::array<Corner, kMaxSplitValence> corners;
-  ring.size = mesh.connectivity.ring(v, corners);
-  if (ring.size == 0) return false;
+  const Corner first = mesh.connectivity.corner_at(v);
+  Corner c = first;
+  std::uint32_t size = 0;
+  do {
+    if (size == kMaxSplitValence) return false;
+    ring.corners[size] = c;
+    ring.vertices[size++] = mesh.connectivity.neighbour(c);
+    c = mesh.connectivity.swing(c);
+  } while (c != first);
+  ring.size = size;
+  return true;
+}
+
+void start_canonically(const MeshState& mesh, OneRing& ring) {
   std::uint32_t start = 0;
   std::uint64_t smallest = ~std::uint64_t{0};
   for (std::uint32_t k = 0; k < ring.size; ++k) {
-    const std::uint64_t id = mesh.canonical(mesh.connectivity.neighbour(corners[k]));
-    if (id < smallest) smallest = id, start = k;
+    const std::uint64_t id = mesh.canonical(ring.vertices[k]);
+    start = id < smallest ? k : start;
+    smallest = std::min(id, smallest);
   }
-  for (std::uint32_t k = 0; k < ring.size; ++k) {
-    const std::uint32_t from = start + k < ring.size ? start + k : start + k - ring.size;
-    ring.corners[k] = corners[from];
-    ring.vertices[k] = mesh.connectivity.neighbour(corners[from]);
-  }
-  return true;
+  const OneRing any = ring;
+  std::rotate_copy(any.corners.begin(), any.corners.begin() + start,
+                   any.corners.begin() + ring.size, ring.corners.begin());
+  std::rotate_copy(any.vertices.begin(), any.vertices.begin() + start,
+                   any.vertices.begin() + ring.size, ring.vertices.begin());
 }
 
 FlagFeatures flag_features(const MeshState& mesh, VertexId v, const OneRing& ring,
@@ -208,19 +226,20 @@ FlagFeatures flag_features(const MeshState& mesh, VertexId v, const OneRing& rin
   f.age = static_cast<int>(level - mesh.vertex[v].split_level);
   if (f.is_border) return f;
   f.valence = static_cast<int>(ring.size);
+  const Vec3i centre = mesh.positions[v];
+  // A sum of integers below 2^53 is exact, so it does not depend on the first ring vertex.
   double sum = 0;
   int real = 0;
   for (std::uint32_t k = 0; k < ring.size; ++k) {
     const VertexId q = ring.vertices[k];
     if (is_virtual(q)) continue;
-    const Vec3 edge = to_vec3(mesh.positions[q] - mesh.positions[v]);
+    const Vec3 edge = to_vec3(mesh.positions[q] - centre);
     sum += dot(edge, edge);
     ++real;
-    if (mesh.vertex[q].split_level == level) {
-      ++f.split;
-    } else if (mesh.vertex[q].visited_level == level) {
-      ++f.unsplit;
-    }
+    const VertexRecord& record = mesh.vertex[q];
+    const bool split = record.split_level == level;
+    f.split += split ? 1 : 0;
+    f.unsplit += static_cast<int>(!split & (record.visited_level == level));
   }
   f.square_length = real > 0 ? sum / real : 0;
   return f;
@@ -236,9 +255,11 @@ RingGeometry ring_geometry(const MeshState& mesh, VertexId v, const OneRing& rin
     const VertexId q = ring.vertices[k];
     out.valence[k] = 6;
     out.is_virtual[k] = is_virtual(q);
+    out.place(k, {});
     if (out.is_virtual[k]) continue;
-    out.at[k] = to_vec3(mesh.seen_from(region, q) - mesh.positions[v]);
-    sum += length(out.at[k]);
+    const Vec3 p = to_vec3(mesh.seen_from(region, q) - mesh.positions[v]);
+    out.place(k, p);
+    sum += length(p);
     ++real;
     const VertexRecord& record = mesh.vertex[q];
     const bool known = record.region == region && !record.is_border;
@@ -250,28 +271,28 @@ RingGeometry ring_geometry(const MeshState& mesh, VertexId v, const OneRing& rin
 
 namespace {
 
-// The one-rings of the two vertices of a split. Positions are relative to v~, in lattice units.
+// The one-rings of a split's two vertices. Positions are relative to v~, in lattice units.
 struct SplitRings {
   SplitRings(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s)
-      : SplitRings(mesh, chunk, s, mesh.vertex[chunk.v(s)].region, chunk.splits[s].merged) {}
+      : SplitRings(mesh, chunk, s, mesh.vertex[chunk.v(s)], chunk.splits[s].merged) {}
 
   HalfRing of_v, of_w;
   Spokes to_v, to_w;
   HalfFeatures v, w;
   int neighbours;  // number of neighbours, at least 1
-  double scale;    // mean distance of the neighbours, lattice units, at least half a cell
+  double scale;    // mean distance of the neighbours from v~, at least half a cell
   Vec3 normal;     // unit vector, or zero if there is no normal
-  Vec3 chord;      // vector from q_i to q_j; zero if one of them is virtual
+  Vec3 chord;      // vector from cut vertex q_i to cut vertex q_j; zero if one is virtual
 
  private:
-  SplitRings(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s, std::uint16_t region,
-             const Vec3i& merged)
+  SplitRings(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s,
+             const VertexRecord& record, const Vec3i& merged)
       : of_v(half_ring(mesh, corner_of_v(chunk, s))),
         of_w(half_ring(mesh, corner_of_w(chunk, s))),
-        to_v(spokes_of(mesh, of_v, region, merged)),
-        to_w(spokes_of(mesh, of_w, region, merged)),
-        v(half_features(mesh, of_v, to_v, region, merged)),
-        w(half_features(mesh, of_w, to_w, region, merged)),
+        to_v(spokes_of(mesh, of_v, record, merged)),
+        to_w(spokes_of(mesh, of_w, record, merged)),
+        v(half_features(mesh, of_v, to_v, record.region, merged)),
+        w(half_features(mesh, of_w, to_w, record.region, merged)),
         neighbours(std::max(v.all.count + w.all.count, 1)) {
     const double half_cell = 0.5 * static_cast<double>(1u << mesh.shift);
     scale = std::max((v.distance + w.distance) / neighbours, half_cell);
@@ -285,34 +306,48 @@ struct SplitRings {
   }
 };
 
-// Averages the D of the neighbours that split in this level. Negates each D whose dot product with
-// `arcs` is negative.
-NeighbourSplits neighbour_splits(const MeshState& mesh, const ChunkSplits& chunk,
-                                 std::span<const SplitError> errors, const SplitRings& rings,
+// Averages D over the neighbours that split in this level. A D whose dot product with `arcs` is
+// negative is first negated. Whether a neighbour counts, and the sign of its D, are as good as
+// random, so this function avoids branches on them.
+NeighbourSplits neighbour_splits(std::span<const PlacedSplit> placed, const SplitRings& rings,
                                  const Vec3& arcs) {
   NeighbourSplits out;
-  const auto add = [&](const HalfRing& half, const Spokes& spokes) {
+  std::array<std::uint32_t, 2 * kMaxNeighbours> settled;
+  std::uint32_t count = 0;
+  const auto collect = [&](const HalfRing& half, const Spokes& spokes) {
     for (std::uint32_t k = 0; k < half.size; ++k) {
-      if (spokes.is_own[k]) add_neighbour_split(mesh, chunk, errors, half.vertices[k], arcs, out);
+      const std::uint32_t t = spokes.split[k];
+      const bool is_settled = t < placed.size();
+      settled[count] = t;
+      count += static_cast<std::uint32_t>(is_settled);
+      out.pending += static_cast<int>(t != kNoSplit) - static_cast<int>(is_settled);
     }
   };
-  add(rings.of_v, rings.to_v);
-  add(rings.of_w, rings.to_w);
+  collect(rings.of_v, rings.to_v);
+  collect(rings.of_w, rings.to_w);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const PlacedSplit& split = placed[settled[k]];
+    out.d.add(split.d * (dot(split.d, arcs) < 0 ? -1.0 : 1.0));
+    out.error.all += split.error.all;
+    out.error.normal += split.error.normal;
+  }
   return out;
 }
 
-// Candidates for D, in lattice units. D is predicted by a weighted sum of them.
+// Predictions of the difference D of the positions of a split's two vertices
+// (displacement_model.h), in lattice units. The final prediction is a weighted sum of these.
 struct Predictions {
-  // D if each of the two vertices is at the mean of its neighbours, including the other one.
+  // D if each of the two vertices lies at the mean of its neighbours. The other vertex counts as a
+  // neighbour, too.
   Vec3 laplacian;
-  Vec3 arcs;            // difference of the means of the two half rings
-  Vec3 inner_arcs;      // like `arcs`, but without q_i and q_j
-  Vec3 parallelograms;  // difference of the means of the parallelogram predictions of v and w
+  Vec3 arcs;            // mean of v's half ring minus mean of w's half ring
+  Vec3 inner_arcs;      // like `arcs`, but without the two cut vertices
+  Vec3 parallelograms;  // mean parallelogram prediction of v minus that of w
   Vec3 across_chord;    // vector of length `scale` in the surface, perpendicular to the chord
   Vec3 neighbours;      // mean D of the neighbours that split in this level
-  Vec3 bend;            // cross product of normal and chord
-  Vec3 tips;            // difference of the sums of the tips, scaled; see add_parallelogram()
-  Vec3 shoulders;       // half the difference of HalfFeatures::shoulders of v and w
+  Vec3 bend;            // cross product of `normal` and SplitRings::chord
+  Vec3 tips;            // scaled difference of the two sums of tips (add_parallelogram())
+  Vec3 shoulders;       // half the difference of HalfFeatures::shoulders
 };
 
 Predictions predictions_of(const SplitRings& rings, const NeighbourSplits& around,
@@ -334,7 +369,7 @@ Predictions predictions_of(const SplitRings& rings, const NeighbourSplits& aroun
           .shoulders = (v.shoulders - w.shoulders) * 0.5};
 }
 
-// Sets `kind` and the clues, which indicate the size of the prediction's error.
+// Sets `kind` and `clues`. Clues are values that correlate with the size of the prediction error.
 void set_clues(SplitSurroundings& out, const SplitRings& rings, const NeighbourSplits& around,
                const Predictions& p) {
   using S = SplitSurroundings;
@@ -376,29 +411,28 @@ void set_clues(SplitSurroundings& out, const SplitRings& rings, const NeighbourS
 }  // namespace
 
 SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& chunk,
-                                     std::span<const SplitError> errors) {
-  const SplitRings rings(mesh, chunk, errors.size());
+                                     std::span<const PlacedSplit> placed) {
+  const SplitRings rings(mesh, chunk, placed.size());
   const Vec3 arcs = rings.v.all.value() - rings.w.all.value();
-  const NeighbourSplits around = neighbour_splits(mesh, chunk, errors, rings, arcs);
+  const NeighbourSplits around = neighbour_splits(placed, rings, arcs);
   const Predictions p = predictions_of(rings, around, arcs);
 
-  // Converts lattice units to cells. The factor is a power of two, so nothing is rounded.
+  // Converts lattice units to cells. This factor is a power of two, so no rounding occurs.
   const double cells = 1.0 / static_cast<double>(1u << mesh.shift);
-  SplitSurroundings out;
-  out.scale = rings.scale * cells;
-  out.normal = rings.normal;
-  out.features = {p.laplacian,  p.arcs, p.inner_arcs, p.parallelograms, p.across_chord,
-                  p.neighbours, p.bend, p.tips,       p.shoulders};
-  for (Vec3& feature : out.features)
-    feature = feature * cells;
+  SplitSurroundings out{
+      .features = {p.laplacian * cells, p.arcs * cells, p.inner_arcs * cells,
+                   p.parallelograms * cells, p.across_chord * cells, p.neighbours * cells,
+                   p.bend * cells, p.tips * cells, p.shoulders * cells},
+      .normal = rings.normal,
+      .scale = rings.scale * cells};
   set_clues(out, rings, around, p);
   return out;
 }
 
 namespace {
 
-// Returns the mean value of an attribute over the half ring of v, minus the mean over the half ring
-// of the new vertex.
+// Returns the mean of an attribute over the half ring of v, minus its mean over the half ring of
+// the new vertex.
 Vec3 half_ring_difference(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s,
                           std::size_t column) {
   const Segments<Vec3i>& values = mesh.attributes[column].values;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the inputs of the models from the mesh around a vertex. The inputs do not depend on the
-// order in which regions are refined (see layer_pass.h).
+// Computes the inputs of the probability models from the mesh around a vertex. The inputs do not
+// depend on the order in which regions are refined (see layer_pass.h).
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace vitrine::inline codec {
 // The data needed to undo a vertex split.
 struct Split {
   VertexId v = 0;
-  Vec3i merged;  // position v~ before the split
+  Vec3i merged;  // position of v before the split (v~)
 };
 
 // The splits of one chunk, in coded order.
@@ -26,15 +26,16 @@ struct ChunkSplits {
   VertexId first_vertex = 0;  // the new vertex of the first split
   std::uint32_t first_face = 0;
   std::vector<Split> splits;
-  // The attributes of v before the splits: for each attribute of the mesh, one value per split.
+  // Per attribute: the value of v before each split.
   std::array<std::vector<Vec3i>, kSemantics> merged_attributes;
 
   std::size_t size() const { return splits.size(); }
   VertexId v(std::size_t s) const { return splits[s].v; }
   // Returns the new vertex of split s.
   VertexId w(std::size_t s) const { return first_vertex + static_cast<VertexId>(s); }
-  // Returns the first new face of split s, (v, q_i, w). The second new face, (v, w, q_j), is the
-  // next one.
+  // Returns the first of the two faces that split s adds: (v, q_i, w), where q_i and q_j are the
+  // ring vertices of v at which the split begins and ends. The second face, (v, w, q_j), has the
+  // next index.
   std::uint32_t face(std::size_t s) const { return first_face + 2 * static_cast<std::uint32_t>(s); }
 };
 
@@ -44,23 +45,31 @@ struct OneRing {
   std::array<VertexId, kMaxSplitValence> vertices;
 };
 
-// Fills `ring` with the one-ring of v, counter-clockwise from the neighbour with the smallest
-// MeshState::canonical(). Returns false if the valence exceeds kMaxSplitValence.
+// Stores the one-ring of v in `ring`, counter-clockwise from any neighbour. Returns false if the
+// valence exceeds kMaxSplitValence.
 bool gather_ring(const MeshState& mesh, VertexId v, OneRing& ring);
+
+// Makes the ring start at the neighbour with the smallest MeshState::canonical().
+void start_canonically(const MeshState& mesh, OneRing& ring);
 
 FlagFeatures flag_features(const MeshState& mesh, VertexId v, const OneRing& ring,
                            std::uint32_t level);
 
 RingGeometry ring_geometry(const MeshState& mesh, VertexId v, const OneRing& ring);
 
-// Returns the surroundings of split s = errors.size(), in the mesh after pass 1 (layer_pass.h). The
-// vertices of all splits before s have their final positions; `errors` holds the prediction errors
-// of these splits.
-SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& chunk,
-                                     std::span<const SplitError> errors);
+// A split whose two vertices have their final positions.
+struct PlacedSplit {
+  Vec3 d;            // final position of v minus that of the new vertex, in lattice units
+  SplitError error;  // of the prediction of d
+};
 
-// Predicts the difference in an attribute between the two vertices of the s-th split. `column` is
-// the index of the attribute in MeshState::attributes.
+// Returns the surroundings of the next split, number placed.size(), in the mesh after pass 1
+// (layer_pass.h). `placed` holds all earlier splits.
+SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& chunk,
+                                     std::span<const PlacedSplit> placed);
+
+// Predicts the difference in an attribute between the two vertices of split s. `column` is the
+// index of the attribute in MeshState::attributes.
 Vec3 predicted_difference(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s,
                           std::size_t column);
 

@@ -6,9 +6,9 @@
 namespace vitrine::inline codec::trained {
 namespace {
 
-// Reads a number and the space after it. The result is the nearest double, because it is a quotient
-// of two whole numbers that a double holds exactly. A test checks this for all numbers of the
-// tables.
+// Reads a number and the space after it. The result is exactly rounded: a double holds both the
+// numerator and the denominator exactly, so only the division rounds. A test checks all numbers in
+// the tables.
 double read_number(const char*& text) {
   const bool negative = *text == '-';
   if (negative) ++text;
@@ -16,7 +16,7 @@ double read_number(const char*& text) {
   for (bool fraction = false; *text >= '.'; ++text) {
     if (*text == '.') {
       fraction = true;
-    } else if (*text == 'e') {  // the exponent is always "e-" and two digits
+    } else if (*text == 'e') {  // the exponent is always 'e', '-' and two digits
       for (int places = (text[2] - '0') * 10 + text[3] - '0'; places > 0; --places)
         power *= 10;
       text += 3;
@@ -31,8 +31,8 @@ double read_number(const char*& text) {
 
 using Probabilities = std::array<std::uint16_t, 2 * kHalf>;
 
-// Converts a probability to units of 1/65536, with a precision of 12 bits. The result never means a
-// probability of 0 or 1.
+// Converts a probability to units of 1/65536, with a precision of 12 bits. The result is never 0 or
+// 65536.
 std::uint16_t twelve_bits(double probability) {
   return static_cast<std::uint16_t>(std::max(static_cast<int>(probability * 4096), 1) << 4 | 8);
 }

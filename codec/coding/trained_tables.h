@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trained initial values of the probability models and predictors that code a chunk.
-// tests/training/train_tables.cpp generates them and lists the training meshes. Changing these
-// values changes the format. They are stored in the form that takes the least space in the
-// browser's compressed module.
+// The trained initial values of the probability models and predictors. Changing them changes the
+// file format. tests/training/train_tables.cpp generates them and lists the training meshes. The
+// text form was chosen because it takes the least space in the browser's compressed module.
 #pragma once
 
 #include <array>
@@ -14,18 +13,18 @@
 
 namespace vitrine::inline codec::trained {
 
-// Numbers as text, such as "-.0386 7.9e-18 ".
+// Numbers as text, separated by spaces, such as "-.0386 7.9e-18 ".
 extern const char kCutWeights[];         // CutModel::kFeatures numbers
 extern const char kTangentialWeights[];  // DisplacementModel::kKinds * kFeatures numbers
 extern const char kNormalWeights[];      // DisplacementModel::kKinds * kFeatures numbers
 // Four numbers for each of the DisplacementModel::kClues * kLevels Evidence structs.
 extern const char kEvidence[];
 
-// Two numbers per bit: kHalf plus eight times the logit of the bit's probability, and an index into
-// kSeen.
-extern const std::uint8_t kFlagBits[];      // FlagModel::kBits pairs
-extern const std::uint8_t kCutBits[];       // CutModel::kBits pairs
-extern const std::uint8_t kResidualBits[];  // ResidualCoder::kBits pairs
+// Two numbers per bit. The first is kHalf plus eight times the logit of the bit's probability. The
+// second is an index into kSeen.
+extern const std::uint8_t kFlagBits[];      // 2 * FlagModel::kBits numbers
+extern const std::uint8_t kCutBits[];       // 2 * CutModel::kBits numbers
+extern const std::uint8_t kResidualBits[];  // 2 * ResidualCoder::kBits numbers
 
 inline constexpr std::size_t kHalf = 64;
 inline constexpr std::array<std::uint8_t, 14> kSeen = {0,  1,  2,  3,  4,  6,  8,

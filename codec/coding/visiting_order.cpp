@@ -9,7 +9,7 @@ namespace vitrine::inline codec {
 namespace {
 
 // Divides the x axis into slabs of equal width, in descending order of x. There are at most as many
-// slabs as vertices. Most slabs hold few vertices, which are quick to sort.
+// slabs as vertices. Most slabs hold few vertices and are therefore quick to sort.
 struct Slabs {
   std::int32_t high = -kCoordinateBound, low = kCoordinateBound;  // bounds of the x coordinates
   std::uint32_t shift = 0;
@@ -26,7 +26,7 @@ struct Slabs {
   std::size_t count() const { return static_cast<std::size_t>((high - low) >> shift) + 1; }
 };
 
-// Sorts in place, without a slow worst case. Its code takes only a few bytes of the browser's
+// Heap sort: works in place, has no quadratic worst case, and adds few bytes to the browser's
 // module.
 template <class Before>
 void heap_sort(std::span<VertexId> items, const Before& before) {
@@ -54,8 +54,8 @@ std::vector<VertexId> visiting_order(const Segments<Vec3i>& positions,
   std::vector<VertexId> order(members.size());
   if (members.empty()) return order;
   const Slabs slabs(positions, members);
-  // Per slab: the next free place in `order`. At first this is the start of the slab; once all
-  // vertices are placed, it is the slab's end.
+  // Per slab: the next free place in `order`. At first this is the slab's start. Once all vertices
+  // are placed, it is the slab's end.
   std::vector<std::uint32_t> end(slabs.count() + 1, 0);
   for (const VertexId v : members)
     ++end[slabs.of(positions[v]) + 1];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which a chunk visits the vertices of its region: in descending lexicographic order
-// of position. Vertices with equal positions come in ascending order of index.
+// The order in which a chunk visits the vertices of its region: descending lexicographic order of
+// position. Vertices at equal positions are visited in ascending order of index.
 #pragma once
 
 #include <span>

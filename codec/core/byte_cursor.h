@@ -16,7 +16,8 @@ namespace vitrine::inline codec {
 
 static_assert(std::endian::native == std::endian::little);
 
-// Loads a number of sizeof(T) bytes from `at`: little-endian, or big-endian if `swap` is true.
+// Loads a number of type T from the sizeof(T) bytes at `at`. The bytes are little-endian, or
+// big-endian if `swap` is true.
 template <class T>
 T load(const std::uint8_t* at, bool swap = false) noexcept {
   std::array<std::uint8_t, sizeof(T)> bytes;
@@ -26,7 +27,7 @@ T load(const std::uint8_t* at, bool swap = false) noexcept {
 }
 
 // Reads numbers from untrusted bytes. A read beyond the end returns zero and makes is_ok() false
-// permanently, so one check after a sequence of reads suffices.
+// for good. One check after several reads is therefore enough.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
@@ -47,26 +48,17 @@ class ByteReader {
     return take(sizeof(T)) ? load<T>(&bytes_[position_ - sizeof(T)], swap) : T{};
   }
 
-  // Reads a LEB128 integer of at most ten bytes. A longer or overflowing encoding returns 0 and
-  // makes is_ok() false.
-  std::uint64_t varint() noexcept {
-    std::uint64_t value = 0;
-    for (unsigned shift = 0; shift < 64; shift += 7) {
-      const std::uint8_t byte = u8();
-      if (shift == 63 && byte > 1) break;
-      value |= std::uint64_t{byte & 0x7Fu} << shift;
-      if (byte < 0x80) return is_ok_ ? value : 0;
-    }
-    is_ok_ = false;
-    return 0;
-  }
+  // Reads a LEB128 integer of 64 or 32 bits, which takes at most ten or five bytes. If the encoding
+  // is longer or overflows, returns 0 and makes is_ok() false.
+  std::uint64_t varint() noexcept { return leb128<64>(); }
+  std::uint32_t varint32() noexcept { return static_cast<std::uint32_t>(leb128<32>()); }
 
   std::int64_t signed_varint() noexcept {  // zigzag-coded LEB128
     const std::uint64_t z = varint();
     return static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1);
   }
 
-  // Skips `count` bytes. If fewer are left, skips those and makes is_ok() false.
+  // Skips `count` bytes. If fewer bytes are left, skips these and makes is_ok() false.
   void skip(std::uint64_t count) noexcept {
     if (count > left()) is_ok_ = false;
     position_ += std::min<std::uint64_t>(count, left());
@@ -82,6 +74,20 @@ class ByteReader {
     if (!is_ok_ || left() < count) return is_ok_ = false;
     position_ += count;
     return true;
+  }
+
+  template <unsigned bits>
+  std::uint64_t leb128() noexcept {
+    constexpr unsigned kLastShift = bits / 7 * 7;
+    std::uint64_t value = 0;
+    for (unsigned shift = 0; shift <= kLastShift; shift += 7) {
+      const std::uint8_t byte = u8();
+      if (shift == kLastShift && byte >> (bits - kLastShift) != 0) break;
+      value |= std::uint64_t{byte & 0x7Fu} << shift;
+      if (byte < 0x80) return is_ok_ ? value : 0;
+    }
+    is_ok_ = false;
+    return 0;
   }
 
   std::uint64_t fixed(std::size_t count) noexcept {
@@ -114,7 +120,7 @@ class ByteWriter {
     varint(static_cast<std::uint64_t>(v) << 1 ^ static_cast<std::uint64_t>(v >> 63));
   }
   void bytes(std::span<const std::uint8_t> b) {
-    // Appends byte by byte because g++ 12 warns of an overflow at link time if this code calls
+    // Appends byte by byte, because g++ 12 reports a false overflow warning at link time for
     // insert().
     for (const std::uint8_t v : b)
       u8(v);

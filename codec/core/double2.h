@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pair of doubles in one SIMD register (SSE2, NEON or WebAssembly's simd128). Every operation is
-// the IEEE operation on each element, so the results are bit-identical to scalar code.
+// A pair of doubles in one SIMD register (SSE2, NEON or WebAssembly SIMD). Each operation applies
+// the IEEE operation to both elements, so the results are bit-identical to scalar code.
 #pragma once
 
 #include <cmath>
@@ -29,6 +29,10 @@ inline void store2(double* to, Double2 v) {
 
 inline Double2 max(Double2 a, Double2 b) {
   return a > b ? a : b;
+}
+inline Double2 clamp(Double2 x, double low, double high) {
+  x = x > low ? x : both(low);
+  return x < high ? x : both(high);
 }
 inline Double2 abs(Double2 x) {
   return max(x, -x);

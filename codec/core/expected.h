@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The result type of functions that can fail: either a value or an error. The error message tells
+// The result type of functions that can fail: a value or an error. The message of an error tells
 // the user what to do next.
 #pragma once
 
@@ -11,9 +11,9 @@ namespace vitrine::inline codec {
 
 enum class ErrorCode {
   kBadInput,     // the input is malformed or inconsistent
-  kUnsupported,  // the input is valid, but this build does not support a feature that it needs
-  kLimit,        // a count or a size exceeds its limit
-  // The call is not allowed in the current state, for example applying a chunk out of order.
+  kUnsupported,  // the input is valid but needs an unsupported feature
+  kLimit,        // a count or size exceeds its limit
+  // The call is not allowed in the current state; for example, a chunk is applied out of order.
   kState,
   kIo,  // an error of the operating system, a device or the network
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Concatenates text at compile time, for example the names in a table.
+// Concatenates strings at compile time, for example the names in a table.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace vitrine::inline codec {
 
-// A text of at most kMostBytes bytes. A longer text causes a compile error.
+// A string of at most kMostBytes bytes. A longer one causes a compile error.
 struct FixedText {
   static constexpr std::size_t kMostBytes = 512;
   std::array<char, kMostBytes> bytes{};
@@ -29,8 +29,8 @@ consteval FixedText concatenate(const Texts&... texts) {
   return all;
 }
 
-// Joins the texts `of(row)` of all rows of a table, for example to "PLY, GLB or OBJ" with the
-// separators ", " and " or ".
+// Joins the strings `of(row)` of all rows of a table. For example, the separators ", " and " or "
+// give "PLY, GLB or OBJ".
 template <class Table, class Of>
 consteval FixedText join(const Table& table, Of of, std::string_view separator,
                          std::string_view last_separator) {

@@ -7,7 +7,7 @@
 
 namespace vitrine::inline codec {
 
-// Escapes UTF-8 text for the content of an element or a quoted attribute value.
+// Escapes UTF-8 text for use as element content or in a quoted attribute value.
 inline std::string escape_html(std::string_view text) {
   std::string out;
   for (const char c : text) {

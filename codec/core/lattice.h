@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The integer grid to which positions are rounded before they are coded (codec/FORMAT.md section
-// 1.3). Coding the grid points is lossless.
+// The integer grid to which positions are rounded before coding (codec/FORMAT.md section 1.3). The
+// grid points are coded without loss.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace vitrine::inline codec {
 
-// Maps lattice coordinates to model positions: origin + step * coordinate. Coordinates lie in [0,
-// 2^bits - 1].
+// Maps lattice coordinates to model positions: origin + step * coordinate. Coordinates are in the
+// range [0, 2^bits - 1].
 struct Lattice {
   Vec3 origin;      // minimum corner of the model's bounding box, model units
   double step = 1;  // model units per lattice unit, > 0 and finite
@@ -21,8 +21,9 @@ struct Lattice {
   Vec3i to_lattice(const Vec3& p) const;  // the nearest grid point; halves round up
 };
 
-// Returns the lattice of `bits` bits per coordinate over the bounding box of `positions`, which
-// must be finite. The step is the longest side / (2^bits - 1), or 1 if the box is a point.
+// Returns the lattice over the bounding box of `positions`, with `bits` bits per coordinate. The
+// positions must be finite. The step is the longest side / (2^bits - 1), or 1 if the box is a
+// single point.
 Lattice fit_lattice(std::span<const Vec3> positions, int bits);
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upper bounds on the counts that a file may state. Each count is checked against these bounds and
-// the remaining bytes before memory is allocated for it.
+// Upper bounds on the counts that a file may state. Readers check each count against these bounds
+// and against the remaining bytes before they allocate memory.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ struct Limits {
   std::uint32_t levels = 64;
   std::uint32_t regions = 65'535;
   std::uint64_t header_bytes = 16u << 20;
-  std::uint64_t pixels = 1u << 28;         // of all pictures of a mesh together, when decoded
-  std::uint64_t picture_bytes = 1u << 30;  // of all pictures of a mesh together, as in their files
+  std::uint64_t pixels = 1u << 28;         // of all pictures of a mesh together, after decoding
+  std::uint64_t picture_bytes = 1u << 30;  // of all pictures of a mesh together, as stored in files
 };
 
 inline constexpr int kMinBits = 10;

@@ -14,7 +14,8 @@ namespace vitrine::inline codec {
 
 using LinearColour = std::array<double, 3>;  // red, green and blue, each 0 to 1
 
-// Converts a colour component from [0, 1] to 0..255. Clamps values outside; NaN becomes 0.
+// Converts a colour component from [0, 1] to 0..255. Clamps values outside this range; NaN becomes
+// 0.
 inline std::uint8_t to_byte(double unit) {
   if (!(unit > 0)) return 0;
   return static_cast<std::uint8_t>(std::min(unit, 1.0) * 255 + 0.5);
@@ -33,7 +34,7 @@ inline LinearColour operator+(const LinearColour& a, const LinearColour& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-// Computes the mean colour of each vertex.
+// Computes the mean colour of each vertex from samples.
 class ColourMeans {
  public:
   explicit ColourMeans(std::size_t vertices = 0) { resize(vertices); }
@@ -44,7 +45,7 @@ class ColourMeans {
     sums_[vertex] = sums_[vertex] + colour;
     ++counts_[vertex];
   }
-  std::vector<Colour> take() const;  // mean colour of each vertex; white without samples
+  std::vector<Colour> take() const;  // mean colour per vertex; white if it has no samples
 
  private:
   std::vector<LinearColour> sums_;

@@ -7,7 +7,7 @@
 
 namespace vitrine::inline codec {
 
-// Called repeatedly during a long operation, on the thread that does the work. Receives the name of
+// Callback for the progress of a long operation, called repeatedly on the working thread. Receives
 // the current stage, such as "read" or "encode", and the completed fraction of the whole operation,
 // from 0 to 1.
 using ProgressReport = std::function<void(std::string_view stage, double fraction)>;

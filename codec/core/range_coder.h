@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive binary range coder (G. N. N. Martin, 1979). Carries are propagated through a run of
-// pending bytes.
+// Adaptive binary range coder (G. N. N. Martin, 1979). Pending bytes are held back until it is
+// known whether a carry changes them.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace vitrine::inline codec {
 
-// An adaptive estimate of the probability that a bit is 1, in units of 1/65536. Each bit moves the
-// estimate towards 0 or 1 by 1/(n + 1.5) of the distance. Here n is the number of earlier bits, but
-// at most kLimit.
+// An adaptive estimate of the probability that a bit is 1, in units of 1/65536. Each coded bit
+// moves the estimate towards 0 or 1 by 1/(n + 1.5) of the distance, where n is the smaller of
+// kLimit and the number of earlier bits.
 struct AdaptiveBit {
   static constexpr int kLimit = 160;
 
@@ -23,7 +23,7 @@ struct AdaptiveBit {
     const std::int32_t target = bit != 0 ? 65535 - 24 : 24;
     const std::int32_t delta = target - one;
     one = static_cast<std::uint16_t>(one + ((delta * kStep[seen]) >> 16));
-    if (seen < kLimit) ++seen;
+    seen = static_cast<std::uint8_t>(seen + static_cast<int>(seen < kLimit));
   }
 
  private:
@@ -37,7 +37,7 @@ struct AdaptiveBit {
 
 namespace range_coder {
 inline constexpr std::uint32_t kTop = 1u << 24;
-// Returns the part of `range` that codes a 1. It is never empty and never the whole range.
+// Returns the part of `range` that codes a 1. This part is never empty and never the whole range.
 constexpr std::uint32_t share(std::uint32_t range, std::uint16_t one) {
   return (range >> 16) * (one | 1u);
 }
@@ -72,8 +72,8 @@ class RangeEncoder {
     return value;
   }
 
-  // Ends the stream and returns its bytes. Trailing zero bytes are dropped because the decoder
-  // reads zeros beyond the end.
+  // Ends the stream and returns its bytes, without trailing zero bytes. The decoder reads zeros
+  // beyond the end.
   std::vector<std::uint8_t> finish() {
     for (int i = 0; i < 5; ++i)
       shift();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An array that grows at its end in blocks of equal size. Unlike std::vector, it never moves its
-// elements: growing makes no second copy and does not fragment memory. At most one block is partly
-// unused, unless the array has shrunk: shrinking keeps the blocks.
+// elements: growing needs no second copy and does not fragment memory. Growing leaves at most one
+// block partly unused. Shrinking frees no blocks.
 #pragma once
 
 #include <cstddef>
@@ -38,13 +38,16 @@ class Segments {
   T& operator[](std::size_t i) { return blocks_[i / kBlock][i % kBlock]; }
   const T& operator[](std::size_t i) const { return blocks_[i / kBlock][i % kBlock]; }
 
-  void push_back(const T& value) { resize(size_ + 1, value); }
+  void push_back(const T& value) {
+    if (blocks_.size() * kBlock == size_) add_block();
+    (*this)[size_++] = value;
+  }
   void pop_back() { --size_; }
 
   // Sets the number of elements. New elements are copies of `value`.
   void resize(std::size_t size, const T& value) {
     while (blocks_.size() * kBlock < size)
-      blocks_.push_back(std::unique_ptr<T[]>(new T[kBlock]));
+      add_block();
     for (; size_ < size; ++size_)
       (*this)[size_] = value;
     size_ = size;
@@ -59,6 +62,8 @@ class Segments {
   }
 
  private:
+  void add_block() { blocks_.push_back(std::unique_ptr<T[]>(new T[kBlock])); }
+
   std::vector<std::unique_ptr<T[]>> blocks_;
   std::size_t size_ = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/core/sha256.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -18,9 +19,6 @@ constexpr std::array<std::uint32_t, 64> kRound = {
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
 using HashState = std::array<std::uint32_t, 8>;
-
-constexpr HashState kInitial = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
 
 std::array<std::uint32_t, 64> schedule(const std::uint8_t* block) noexcept {
   std::array<std::uint32_t, 64> w{};
@@ -55,29 +53,46 @@ void absorb(HashState& state, const std::uint8_t* block) noexcept {
 
 }  // namespace
 
-Sha256 sha256(std::span<const std::uint8_t> bytes) noexcept {
-  HashState state = kInitial;
-  std::size_t done = 0;
-  for (; bytes.size() - done >= 64; done += 64)
-    absorb(state, bytes.data() + done);
+void Sha256Hasher::add(std::span<const std::uint8_t> bytes) noexcept {
+  if (bytes.empty()) return;
+  const std::size_t held = size_ % block_.size();
+  size_ += bytes.size();
+  if (held != 0) {
+    const std::size_t taken = std::min(block_.size() - held, bytes.size());
+    std::memcpy(block_.data() + held, bytes.data(), taken);
+    bytes = bytes.subspan(taken);
+    if (held + taken < block_.size()) return;
+    absorb(state_, block_.data());
+  }
+  for (; bytes.size() >= block_.size(); bytes = bytes.subspan(block_.size()))
+    absorb(state_, bytes.data());
+  if (!bytes.empty()) std::memcpy(block_.data(), bytes.data(), bytes.size());
+}
 
+Sha256 Sha256Hasher::finish() noexcept {
   std::array<std::uint8_t, 128> tail{};
-  const std::size_t left = bytes.size() - done;
-  if (left != 0) std::memcpy(tail.data(), bytes.data() + done, left);
+  const std::size_t left = size_ % block_.size();
+  std::memcpy(tail.data(), block_.data(), left);
   tail[left] = 0x80;
   const std::size_t blocks = left < 56 ? 1 : 2;
-  const std::uint64_t bits = std::uint64_t{bytes.size()} * 8;
+  const std::uint64_t bits = size_ * 8;
   for (std::size_t i = 0; i < 8; ++i) {
     tail[64 * blocks - 1 - i] = static_cast<std::uint8_t>(bits >> (8 * i));
   }
   for (std::size_t i = 0; i < blocks; ++i)
-    absorb(state, tail.data() + 64 * i);
+    absorb(state_, tail.data() + 64 * i);
 
   Sha256 digest;
   for (std::size_t i = 0; i < 32; ++i) {
-    digest[i] = static_cast<std::uint8_t>(state[i / 4] >> (24 - 8 * (i % 4)));
+    digest[i] = static_cast<std::uint8_t>(state_[i / 4] >> (24 - 8 * (i % 4)));
   }
   return digest;
+}
+
+Sha256 sha256(std::span<const std::uint8_t> bytes) noexcept {
+  Sha256Hasher hasher;
+  hasher.add(bytes);
+  return hasher.finish();
 }
 
 std::string to_hex(const Sha256& digest) {

@@ -6,7 +6,7 @@
 
 namespace vitrine::inline codec {
 
-// Both functions map [0, 1] to [0, 1].
+// Both functions map the range [0, 1] to itself.
 inline double srgb_to_linear(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A convex piece of a triangle, which can be cut by planes.
+// A convex piece of a triangle. Planes can cut it into smaller pieces.
 #pragma once
 
 #include <boost/container/static_vector.hpp>
@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 class ConvexPiece {
  public:
-  // Maximum number of corners. A cut normally adds one corner. If rounding puts the corners on
-  // alternating sides of the plane, a cut adds half as many corners as there are.
+  // Maximum number of corners. A cut normally adds one corner. Rounding can put corners on
+  // alternating sides of the plane; such a cut adds half as many corners as there are.
   static constexpr std::size_t kCapacity = 18;
 
   ConvexPiece() = default;
@@ -22,19 +22,20 @@ class ConvexPiece {
 
   std::span<const Vec3> corners() const { return corners_; }
   bool empty() const { return corners_.empty(); }
-  // True if there is no room for another cut.
+  // Whether there is no room left for another cut.
   bool is_full() const { return corners_.size() + 6 > kCapacity; }
 
   Vec3 centre() const;                      // mean of the corners
   double radius(const Vec3& centre) const;  // distance from `centre` to the farthest corner
 
   struct Parts;
-  // Cuts the piece along the plane through `p` with the unit vector `normal`, which points to
-  // `front`. The piece must not be full. If one side reaches no farther than `slack` from the
-  // plane, its part is empty and the other part is the whole piece.
+  // Cuts the piece along the plane through `p` with the unit vector `normal`. The part called
+  // `front` is on the side to which `normal` points. If the piece extends at most `slack` beyond
+  // the plane on one side, that side's part is empty and the other part is the whole piece. The
+  // piece must not be full.
   Parts cut(const Vec3& p, const Vec3& normal, double slack) const;
-  // Cuts the piece through its centre, perpendicular to the direction of the farthest corner. A
-  // full piece is cut along a diagonal instead, which adds no corner.
+  // Cuts the piece through its centre, perpendicular to the direction of its farthest corner. A
+  // full piece is cut along a diagonal instead, because this adds no corner.
   Parts halves() const;
 
  private:

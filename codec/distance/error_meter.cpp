@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::size_t kSamples = 2'000;  // number of samples on each surface
 constexpr std::uint64_t kSeed = 1;
-// Number of samples with the largest distances on each surface. The triangles that contain them are
-// bounded first.
+// Number of samples with the largest distances that are kept for each surface. The triangles that
+// contain these samples are bounded first.
 constexpr std::size_t kWorst = 32;
 constexpr double kTolerance = 1.02;
-constexpr double kNegligible = 1e-6;  // share of the diagonal of the original's bounding box
+constexpr double kNegligible = 1e-6;  // relative to the diagonal of the original's bounding box
 
 double diagonal(const TriangleBvh& bvh) {
   const TriangleBvh::Node& n = bvh.nodes()[0];
@@ -26,7 +26,7 @@ double diagonal(const TriangleBvh& bvh) {
 }
 
 struct Worst {
-  double squared;
+  double squared, at_least;  // see ClosestTriangle
   // `triangle` contains the sample. `nearest` is the closest triangle of the other surface.
   std::uint32_t triangle, nearest;
 };
@@ -44,7 +44,7 @@ SampledErrors sample(std::span<const SurfaceSample> samples, const WitnessSurfac
     const ClosestTriangle hit = surface.closest(s.point, last);
     last = hit.triangle;
     sum += hit.squared;
-    out.worst.push_back({hit.squared, s.triangle, hit.triangle});
+    out.worst.push_back({hit.squared, hit.at_least, s.triangle, hit.triangle});
   }
   out.rms = std::sqrt(sum / static_cast<double>(samples.size()));
   const auto end =
@@ -55,18 +55,18 @@ SampledErrors sample(std::span<const SurfaceSample> samples, const WitnessSurfac
 }
 
 // Adds the samples with the largest distances, and the triangles that contain them, to `bound`.
-// Called first, because a large distance that is known early saves work later.
+// This runs first, because knowing a large distance early saves work later.
 void add_worst(HausdorffBound& bound, const SampledErrors& sampled, const RegionedSurface& source,
                const WitnessSurface& target) {
   for (const Worst& w : sampled.worst) {
     bound.choose(source.regions(w.triangle)[0]);
-    bound.know(std::sqrt(w.squared));
+    bound.know(std::sqrt(w.at_least));
     bound.add(source.bvh.triangle(w.triangle), target, w.nearest);
   }
 }
 
 // Assigns each vertex of `bvh` its region. `regions` holds one entry per vertex of the mesh from
-// which `bvh` was built; if it is empty, there is only one region.
+// which `bvh` was built. An empty `regions` means that there is only one region.
 RegionedSurface in_regions(const TriangleBvh& bvh, std::span<const std::uint16_t> regions) {
   RegionedSurface surface{bvh, {}};
   if (regions.empty()) return surface;
@@ -76,7 +76,7 @@ RegionedSurface in_regions(const TriangleBvh& bvh, std::span<const std::uint16_t
   return surface;
 }
 
-// Builds the bounding volume hierarchy of `mesh` and frees the mesh at once.
+// Builds the bounding volume hierarchy of `mesh`. Frees the mesh immediately to save memory.
 TriangleBvh consume(TriangleMesh mesh) {
   TriangleBvh bvh(mesh);
   mesh = {};

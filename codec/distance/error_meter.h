@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures how far each displayed level is from the original surface.
+// Measures the distance of each displayed level from the original surface.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,17 @@
 namespace vitrine::inline codec {
 
 struct LevelError {
-  // In model units. No point of either surface is farther than this from the other surface.
+  // Upper bound, in model units: no point of either surface is farther than this from the other
+  // surface.
   double max_error = 0;
-  // The larger rms distance of the two directions, in model units. Each is computed from 2,000
-  // samples.
+  // Root mean square distance in model units, from 2,000 samples on each surface. It is the larger
+  // of the values for the two directions.
   double rms_error = 0;
-  std::vector<double> region_errors;  // max_error per region; the largest entry equals max_error
+  std::vector<double> region_errors;  // max_error of each region; the largest equals max_error
 };
 
 // The region of each vertex of a level and of the original, numbered from 0. Empty vectors mean
-// that there is only one region.
+// that all vertices are in one region.
 struct LevelRegions {
   std::vector<std::uint16_t> of_level, of_original;
   std::uint32_t count = 1;
@@ -38,18 +39,19 @@ class ErrorMeter {
   ErrorMeter(const ErrorMeter&) = delete;
 
   // Measures the displayed mesh of a level, in model units. `mesh` must have at least one face.
-  // max_error exceeds the true maximum by at most 2 % or 1e-6 of the diagonal of the original's
-  // bounding box, except for tangled surfaces (see HausdorffBound).
+  // max_error exceeds the true maximum by at most 2 %, or by at most 1e-6 of the diagonal of the
+  // original's bounding box. Surfaces that cross or coincide with themselves can exceed this (see
+  // HausdorffBound).
   LevelError measure(TriangleMesh mesh, const LevelRegions& regions = {}) const;
-  // Measures a copy of the original whose vertices are moved by `move`, for example rounded to a
-  // lattice. Fast if the vertices move little.
+  // Measures a copy of the original whose vertices were moved by `move`, for example rounded to a
+  // lattice. Fast if the vertices move only slightly.
   using PointMap = std::function<Vec3(const Vec3&)>;
   LevelError measure_moved(const PointMap& move, const LevelRegions& regions = {}) const;
 
   const TriangleBvh& original() const { return bvh_; }
 
  private:
-  // Samples both surfaces and adds the samples with the largest distances, and the triangles that
+  // Samples both surfaces. Adds the samples with the largest distances, and the triangles that
   // contain them, to `bound`. Returns the larger rms distance of the two directions.
   double sample_both(const RegionedSurface& level, const RegionedSurface& original,
                      const WitnessSurface& surface, HausdorffBound& bound) const;

@@ -9,18 +9,18 @@ namespace vitrine::inline codec {
 namespace {
 
 // A piece counts as much larger than its witness if radius^4 > kManyWitnesses * (2 * area of the
-// witness)^2. Such a piece is not cut along the edges of the witness.
+// witness)^2. Such a piece is not cut along the witness's edges.
 constexpr double kManyWitnesses = 16;
-// The source counts as finer if it has at least kFine times as many triangles as the target. In
-// that case one witness may bound a whole triangle of the source.
+// The source counts as finer if it has at least kFine times as many triangles as the target. One
+// witness may then bound a whole triangle of the source.
 constexpr std::size_t kFine = 2;
-// One exact distance can settle a piece if the piece's radius is at most this share of limit().
+// Largest radius, as a share of limit(), of a piece that one exact distance can settle.
 constexpr double kOneDistance = 0.9;
-// An edge does not cut a piece that reaches beyond it by at most this share of limit().
+// An edge cuts a piece only if the piece reaches beyond the edge by more than this share of
+// limit().
 constexpr double kSlack = 1e-6;
-// limit() counts as wide if it exceeds kWide times the width of the target's triangles. In that
-// case a few exact distances settle a triangle of the source faster than a patch of the target
-// does.
+// If limit() exceeds kWide times the width of the target's triangles, a few exact distances settle
+// a triangle of the source faster than a patch of the target does.
 constexpr double kWide = 4;
 
 Vec3 centre_of(const TrianglePoints& t) {
@@ -33,7 +33,7 @@ double squared_area(const TrianglePoints& t) {
   return dot(normal, normal);
 }
 
-// Returns the square root of twice the mean triangle area, computed from a sample of the triangles.
+// Returns the square root of twice the mean triangle area. Uses every 64th triangle.
 double typical_width(const WitnessSurface& surface) {
   constexpr std::uint32_t kStride = 64;
   double area = 0, count = 0;
@@ -44,13 +44,12 @@ double typical_width(const WitnessSurface& surface) {
 
 constexpr std::uint16_t kSeveral = 0xFFFF;
 
-// Returns the number of distinct regions in `r`. They come first in `r`, as in the result of
-// RegionedSurface::regions().
+// Returns the number of distinct regions in `r`, a result of RegionedSurface::regions().
 std::size_t count_distinct(const std::array<std::uint16_t, 3>& r) {
   return r[0] == r[1] ? 1 : r[1] == r[2] ? 2 : 3;
 }
 
-// Returns the region of all triangles in a leaf, or kSeveral if they differ.
+// Returns the region of a leaf's triangles, or kSeveral if the triangles are in different regions.
 std::uint16_t leaf_region(const RegionedSurface& surface, const TriangleBvh::Node& leaf) {
   const std::uint16_t first = surface.regions(leaf.first)[0];
   for (std::uint32_t t = leaf.first; t < leaf.first + leaf.count; ++t) {
@@ -60,8 +59,8 @@ std::uint16_t leaf_region(const RegionedSurface& surface, const TriangleBvh::Nod
   return first;
 }
 
-// Computes the region of each node from its children. Runs backwards because children come after
-// their parents.
+// Computes the region of each node from those of its children. Runs backwards, because children
+// have higher indices than their parents.
 std::vector<std::uint16_t> node_regions(const RegionedSurface& surface) {
   const std::span<const TriangleBvh::Node> nodes = surface.bvh.nodes();
   std::vector<std::uint16_t> out(nodes.size(), 0);
@@ -82,7 +81,7 @@ struct OverhungEdge {
   double overhang = 0;
 };
 
-// Returns the edge of the witness beyond which the piece reaches farthest.
+// Returns the edge of the witness beyond which the piece extends farthest.
 OverhungEdge most_overhung(const ConvexPiece& piece, const WitnessSurface& target,
                            std::uint32_t witness) {
   OverhungEdge most;
@@ -100,7 +99,7 @@ OverhungEdge most_overhung(const ConvexPiece& piece, const WitnessSurface& targe
 void HausdorffBound::add(const TrianglePoints& triangle, const WitnessSurface& target,
                          std::uint32_t near) {
   target_ = &target;
-  last_ = target.closest(centre_of(triangle), near).triangle;
+  last_ = search(centre_of(triangle), near).triangle;
   cover(ConvexPiece(triangle), last_);
 }
 
@@ -116,8 +115,8 @@ double HausdorffBound::bound() const {
   return most;
 }
 
-// The distance between corresponding points of two triangles is at most the largest distance
-// between corresponding corners.
+// Compares only the corners, because the distance between corresponding points of two triangles is
+// largest at a corner.
 void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other,
                                const RegionedSurface& surface) {
   for (std::uint32_t t = 0; t < one.size(); ++t) {
@@ -139,7 +138,7 @@ void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& 
 struct HausdorffBound::Visit {
   const RegionedSurface& source;
   const Overlaps& known;
-  // Per node: the region of all triangles below it, or kSeveral.
+  // Per node: the region of all triangles below the node, or kSeveral.
   std::vector<std::uint16_t> node_regions;
   PatchCover patches;
 };
@@ -191,9 +190,10 @@ void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   if (is_source_finer_ && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
   if (limit() > wide_) return cover(ConvexPiece(triangle), last_);
   if (lay_patch(all, triangle, t)) return;
-  // The walk may have ended on another sheet of the surface, so search for the closest triangle.
-  const ClosestTriangle nearest = target_->closest(centre, last_);
-  know(std::sqrt(nearest.squared));
+  // The walk from triangle to triangle may have ended on another sheet of the surface, so this
+  // searches for the closest triangle.
+  const ClosestTriangle nearest = search(centre, last_);
+  know(std::sqrt(nearest.at_least));
   if (nearest.triangle != last_) {
     last_ = nearest.triangle;
     if (lay_patch(all, triangle, t)) return;
@@ -201,7 +201,7 @@ void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   cover(ConvexPiece(triangle), last_);
 }
 
-// Tries to cover triangle t of the source by a patch that starts at the newest witness. Returns
+// Tries to cover triangle t of the source by a patch that starts at the last witness. Returns
 // whether this succeeded.
 bool HausdorffBound::lay_patch(Visit& all, const TrianglePoints& triangle, std::uint32_t t) {
   const PatchCover::CoverResult patch =
@@ -210,7 +210,7 @@ bool HausdorffBound::lay_patch(Visit& all, const TrianglePoints& triangle, std::
   return patch.is_covered;
 }
 
-// Tries to settle all triangles in a box by one witness. Returns whether this succeeded.
+// Tries to bound all triangles in a box by one witness. Returns whether this succeeded.
 bool HausdorffBound::settle_box(const TriangleBvh::Node& n) {
   const Vec3 low{n.low[0], n.low[1], n.low[2]}, high{n.high[0], n.high[1], n.high[2]};
   if (length(high - low) > limit()) return false;
@@ -222,12 +222,12 @@ bool HausdorffBound::settle_box(const TriangleBvh::Node& n) {
   return settle(corners, last_);
 }
 
-// Moves the newest witness close to p. Tries a walk first, then a search if the walk ends too far
-// away.
+// Moves the last witness close to p: first by a walk over neighbouring triangles, then by a search
+// if the walk ends too far from p.
 void HausdorffBound::approach(const Vec3& p) {
   last_ = target_->stroll(p, last_);
   if (target_->farthest_within({&p, 1}, last_, limit()) > limit())
-    last_ = target_->closest(p, last_).triangle;
+    last_ = search(p, last_).triangle;
 }
 
 bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness) {
@@ -245,8 +245,8 @@ void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   const double area = squared_area(target_->triangle(witness));
   const bool much_larger = radius * radius * radius * radius > kManyWitnesses * area;
   if (!much_larger) return cut(piece, witness, kCuts);
-  // A walk may end at a face without area. Such a face does not show how large the triangles near
-  // it are.
+  // A walk may end at a face without area, which says nothing about the size of the nearby
+  // triangles.
   if (radius > limit() * kOneDistance && area > 0) return halve(piece, witness);
   examine(piece, witness);
 }
@@ -263,15 +263,15 @@ void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cu
   cut(parts.back, target_->across(witness, edge.index), cuts - 1);
 }
 
-// Bounds a piece by exact distances, for cases in which no nearby witness is good enough.
+// Bounds a piece by exact distances. Used if no nearby witness gives a good enough bound.
 void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   spend();
   const Vec3 centre = piece.centre();
-  const ClosestTriangle middle = target_->closest(centre, witness);
-  know(std::sqrt(middle.squared));
+  const ClosestTriangle middle = search(centre, witness);
+  know(std::sqrt(middle.at_least));
   if (settle(piece.corners(), middle.triangle)) return;
-  // If a point moves, its distance changes by at most the length of the move (the distance is
-  // 1-Lipschitz).
+  // A point's distance to the target changes by at most the length of the point's move, because the
+  // distance is 1-Lipschitz.
   const double reach = std::sqrt(middle.squared) + piece.radius(centre);
   if (reach <= limit()) {
     raise(reach);
@@ -280,13 +280,20 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   for (const Vec3& p : piece.corners()) {
     const double known = regions_[region_].known;
     if (target_->farthest_within({&p, 1}, witness, known) <= known) continue;
-    know(std::sqrt(target_->closest(p, middle.triangle).squared));
+    know(std::sqrt(search(p, middle.triangle).at_least));
   }
   halve(piece, middle.triangle);
 }
 
-// Counts a unit of work. After enough work, lowers the precision, and does so sooner each time.
-// This ensures that tangled surfaces are finished in bounded time.
+// Finds the closest triangle of the target. A search that visits many nodes counts as more work.
+ClosestTriangle HausdorffBound::search(const Vec3& p, std::uint32_t hint) {
+  const ClosestTriangle found = target_->closest(p, hint);
+  if (found.visited > kUsualNodes) spent_ += found.visited / kNodesPerPiece;
+  return found;
+}
+
+// Counts one unit of work. Lowers the precision once much work is done, and each time sooner than
+// before. The time is therefore bounded, even if the surfaces cross or coincide.
 void HausdorffBound::spend() {
   if (++spent_ <= (kWork + 4 * target_->size()) >> (2 * losses_)) return;
   negligible_ *= 2, spent_ = 0;
@@ -296,10 +303,10 @@ void HausdorffBound::spend() {
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
   spend();
   const ConvexPiece::Parts parts = piece.halves();
-  // A part is empty if the piece is too small for the precision of the coordinates.
+  // A part is empty if the piece is so small that coordinates cannot resolve it.
   if (parts.front.empty() || parts.back.empty()) {
     const Vec3 centre = piece.centre();
-    raise(std::sqrt(target_->closest(centre, start).squared) + piece.radius(centre));
+    raise(std::sqrt(search(centre, start).squared) + piece.radius(centre));
     return;
   }
   cover(parts.front, start);

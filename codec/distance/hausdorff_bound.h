@@ -2,15 +2,16 @@
 // Proves an upper bound on the distance from one surface, the source, to another, the target, by
 // branch and bound.
 //
-// The distance to one triangle S of the target, called the witness, is a convex function. On a
-// convex piece of the source it is therefore largest at a corner. The largest corner distance
-// bounds the distance from the whole piece to the target. If that bound is too weak, the piece is
-// cut along an edge of S, and the neighbour of S becomes the witness beyond that edge. If a cut
-// does not help, the piece is halved.
+// The algorithm chooses a triangle S of the target, called the witness. The distance to S is a
+// convex function. On a convex piece of the source, it is therefore largest at a corner of the
+// piece. This largest corner distance bounds the distance from the whole piece to the target. If
+// the bound is too weak, the piece is cut along an edge of S. Beyond that edge, the neighbour of S
+// becomes the witness. If a cut does not help, the piece is halved.
 //
-// Most triangles of the source are not cut, because a patch of the target covers them
-// (patch_cover.h). If the triangles of the target are much smaller than the limit, a few exact
-// distances settle a triangle of the source faster than a patch.
+// A piece is settled once its bound is good enough. Most triangles of the source are settled
+// without cuts, because a patch of the target covers them (patch_cover.h). If the target's
+// triangles are much smaller than the limit, a few exact distances settle a triangle of the source
+// faster than a patch.
 //
 // Surfaces with sheets that cross or coincide can need very many pieces: one for each square whose
 // side equals the precision. The precision is therefore lowered as the work grows, which bounds the
@@ -30,14 +31,14 @@
 
 namespace vitrine::inline codec {
 
-// A surface whose vertices are divided into regions. A triangle belongs to the region of each of
-// its corners.
+// A surface whose vertices are divided into regions. A triangle belongs to the regions of all its
+// corners.
 struct RegionedSurface {
   const TriangleBvh& bvh;
   // Per vertex of `bvh`: its region, numbered from 0. Empty if all vertices are in region 0.
   std::vector<std::uint16_t> region;
 
-  // Returns the regions of a triangle's corners. The distinct regions come first; the last of them
+  // Returns the regions of a triangle's corners. The distinct regions come first. The last of them
   // is repeated to fill the array.
   std::array<std::uint16_t, 3> regions(std::uint32_t triangle) const {
     if (region.empty()) return {};
@@ -53,7 +54,7 @@ class HausdorffBound {
  public:
   // A piece is settled if its bound is at most `tolerance` (> 1) times the largest known distance,
   // or at most `negligible` (> 0, model units). Each of `regions` (>= 1) regions has its own bound.
-  // Regions with small distances get bounds that are less tight.
+  // Bounds of regions with small distances are less tight.
   HausdorffBound(double tolerance, double negligible, std::size_t regions = 1)
       : tolerance_(tolerance), negligible_(negligible), regions_(regions) {}
 
@@ -61,39 +62,45 @@ class HausdorffBound {
   // distance early saves time later.
   void know(double distance);
 
-  // Chooses the region to which know(), and add() of a single triangle, apply.
+  // Chooses the region to which know() and the single-triangle add() apply.
   void choose(std::uint16_t region) { region_ = region; }
 
-  // Adds the distances from every point of a triangle to `target`. `near` is a hint for the search:
-  // a triangle of `target` close to `triangle`.
+  // Adds the distances from every point of `triangle` to `target`. `near` is a triangle of `target`
+  // close to `triangle`, where the search starts.
   void add(const TrianglePoints& triangle, const WitnessSurface& target, std::uint32_t near);
 
-  // Adds the distances between two surfaces with the same faces in the same order, in both
-  // directions. `surface` holds the regions of both.
+  // Adds the distances, in both directions, between two surfaces with the same faces in the same
+  // order. `surface` holds the regions of both.
   void add_twins(const WitnessSurface& one, const WitnessSurface& other,
                  const RegionedSurface& surface);
 
   // Adds the distances from every point of `source` to `target`. Returns the triangles of `target`
-  // found close to `source`. The call in the other direction takes this result as `known`. A mark
-  // in the result is 1 + the region whose bound holds for the whole triangle.
+  // that were found close to `source`. Pass this result as `known` to the call in the other
+  // direction. The mark of a triangle in the result is 1 + the number of the region whose bound
+  // holds for the whole triangle.
   Overlaps add(const RegionedSurface& source, const WitnessSurface& target,
                const Overlaps& known = {});
 
-  // Returns an upper bound of all distances added so far. It is at most `tolerance` times the
-  // largest distance, or at most `negligible`. For tangled surfaces, it may be larger, because the
-  // number of pieces is limited.
+  // Returns an upper bound of all distances added so far. The bound is at most `tolerance` times
+  // the largest distance, or at most `negligible`. It may be larger if surfaces cross or coincide,
+  // because the number of pieces is limited.
   double bound() const;
   double bound(std::size_t region) const {
     return std::max(regions_[region].known, regions_[region].bound);
   }
 
  private:
-  // Maximum number of cuts in a row; without it, rounding could cause endless cuts.
+  // Maximum number of successive cuts of a piece. Without this limit, rounding could cause endless
+  // cuts.
   static constexpr int kCuts = 16;
-  // The precision is first halved after kWork pieces, plus 4 for each face of the target.
+  // The precision is halved for the first time after kWork + 4 * (faces of the target) pieces.
   static constexpr std::size_t kWork = 65'536;
-  // Each time the precision is halved, the number of pieces allowed before the next time is divided
-  // by 4. After kMostLosses times, it is no longer divided.
+  // A search of the target counts as more work, one piece for each kNodesPerPiece nodes, if it
+  // visits more than kUsualNodes nodes. Triangles around one vertex or edge cause such searches,
+  // because they are equally close to points beyond it.
+  static constexpr std::uint32_t kUsualNodes = 256, kNodesPerPiece = 64;
+  // After each halving of the precision, the number of pieces until the next one is divided by 4.
+  // After kMostLosses halvings, this number stays the same.
   static constexpr unsigned kMostLosses = 4;
 
   // A region's bound is not refined below this share of the largest distance known in any region.
@@ -116,6 +123,7 @@ class HausdorffBound {
   void cover(const ConvexPiece& piece, std::uint32_t start);
   void cut(const ConvexPiece& piece, std::uint32_t witness, int cuts);
   void examine(const ConvexPiece& piece, std::uint32_t witness);
+  ClosestTriangle search(const Vec3& p, std::uint32_t hint);
   void spend();
   void halve(const ConvexPiece& piece, std::uint32_t start);
 
@@ -126,15 +134,16 @@ class HausdorffBound {
   std::vector<Region> regions_;
   std::uint16_t region_ = 0;
   double known_ = 0;       // largest distance known in any region
-  std::size_t spent_ = 0;  // pieces examined or halved since the precision was last changed
+  std::size_t spent_ = 0;  // pieces examined or halved at the current precision
   unsigned losses_ = 0;
   const WitnessSurface* target_ = nullptr;
-  // Whether the source has so many more triangles than the target that one witness may bound
-  // several.
+  // Whether the source has at least kFine times as many triangles as the target. One witness may
+  // then bound several triangles.
   bool is_source_finer_ = false;
-  // kWide times the width of the target's triangles; a larger limit() counts as wide.
+  // kWide times the width of the target's triangles. If limit() exceeds this, exact distances are
+  // used instead of patches.
   double wide_ = 0;
-  std::uint32_t last_ = 0;  // the newest witness, from which the next search starts
+  std::uint32_t last_ = 0;  // the last witness, where the next search starts
 };
 
 }  // namespace vitrine::inline codec

@@ -10,13 +10,14 @@ namespace {
 
 using Ints __attribute__((vector_size(16))) = std::int32_t;
 
-// Error bound of a point's prism coordinates, relative to 1 plus the point's distance from corner a
-// of the prism's triangle. Covers eight roundings, and two more for safety.
+// Error bound of a point's prism coordinates, divided by (1 + the point's distance from corner a of
+// the prism's triangle). The bound covers eight roundings, and two more for safety.
 constexpr float kRounding = 6e-7f;
-// No patch reaches a point farther than this from corner a of the prism's triangle, in units of the
-// prism. This keeps floats finite.
+// Largest allowed distance of a patch's points from corner a of the prism's triangle, in units of
+// the prism. This keeps floats finite.
 constexpr float kFarthest = 1e5f;
-// Patches do not cover a triangle if twice its area is at most this, in squared units of the prism.
+// A triangle is covered by patches only if twice its area exceeds this, in squared units of the
+// prism.
 constexpr double kLeastArea = 1e-6;
 constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0};
 
@@ -25,7 +26,7 @@ double longest_edge(const TrianglePoints& t) {
   return std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
 }
 
-// Returns the largest height of the plane of `s` over the corners of the triangle `over`, along
+// Returns the largest distance between the plane of `s` and a corner of `over`, measured along
 // `direction`, the unit normal of `over`.
 double plane_height(const TrianglePoints& s, const Vec3& direction, const TrianglePoints& over) {
   const Vec3 normal = cross(s.b - s.a, s.c - s.a);
@@ -35,8 +36,8 @@ double plane_height(const TrianglePoints& s, const Vec3& direction, const Triang
   return most / std::abs(dot(normal, direction));
 }
 
-// Returns an error bound for twice the area of a triangle. `slack` is the largest error bound of
-// its corners, so its sides are at most 2 slack / kRounding long.
+// Returns an error bound for twice the area of a triangle, given `slack`, the largest error bound
+// of its corners. Each side is at most 2 slack / kRounding long.
 float doubtful_area(float slack) {
   return 16 / kRounding * slack * slack;
 }
@@ -47,16 +48,17 @@ float outside(float depth, float slack) {
 
 }  // namespace
 
-// The prism over a triangle, given by its plane and three walls. Its unit of length is the
-// triangle's longest edge. A point is four floats in one vector, together with an error bound.
+// The prism over a triangle, stored as the triangle's plane and three walls. The unit of length is
+// the triangle's longest edge. The coordinates of a point are four floats in one SIMD vector.
 struct PatchCover::Prism {
   TrianglePoints base;
   Vec3 normal;
   double unit, per_unit;
-  float limit;  // in units of the prism
-  // Twice the triangle's area in squared units of the prism, and its reciprocal, rounded up.
+  float limit;  // largest allowed height of a patch, in units of the prism
+  // Twice the triangle's area in squared units of the prism, and the reciprocal of this, rounded
+  // up.
   float twice_area = 0, per_area = 0;
-  Lanes x{}, y{}, z{}, offset{};  // per lane: direction and offset of the plane or of a wall
+  Lanes x{}, y{}, z{}, offset{};  // lane 0: the plane's normal and offset; lanes 1 to 3: the walls'
   Lanes centre{};
 
   Prism(const TrianglePoints& t, double most)
@@ -77,8 +79,9 @@ struct PatchCover::Prism {
     set(1, cross(normal, ab));
     set(2, cross(normal, bc));
     set(3, cross(normal, ca));
-    offset[2] = -twice_area;  // wall 2 does not pass through corner a
-    // Any point inside the triangle will do, except its middle, where refined meshes have vertices.
+    offset[2] = -twice_area;  // unlike walls 1 and 3, wall 2 does not contain corner a
+    // A point inside the triangle. The middle is avoided, because refined meshes have vertices
+    // there.
     centre = Lanes{0, 0.31f, 0.36f, 0.33f} * twice_area;
   }
 
@@ -102,8 +105,8 @@ struct PatchCover::Prism {
     const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bits);
     const std::uint64_t both = halves[0] | halves[1];
     const unsigned far = reach <= kFarthest ? 0 : kFar;
-    // Negative barycentric coordinates bound how far the point is outside the triangle, in units of
-    // its edges.
+    // The sum of the negative barycentric coordinates bounds the distance of the point from the
+    // triangle, in units of the longest edge.
     const float out = per_area *
                       (outside(at[1], slack) + outside(at[2], slack) + outside(at[3], slack)),
                 high = std::abs(at[0]) + slack;
@@ -111,8 +114,8 @@ struct PatchCover::Prism {
   }
 };
 
-// Returns a positive multiple of the area of a triangle seen from above, or a negative one if the
-// triangle faces down.
+// Returns a multiple of the triangle's area as seen from above: positive if the triangle faces up,
+// negative if it faces down.
 float PatchCover::area(const Lanes& a, const Lanes& b, const Lanes& c) {
   const Lanes ab = b - a, ac = c - a;
   return ab[1] * ac[2] - ab[2] * ac[1];
@@ -133,8 +136,8 @@ PatchCover::CoverResult PatchCover::cover(const TrianglePoints& triangle, std::u
   return {covered, std::max(height_, std::sqrt(squared_)) * prism.unit};
 }
 
-// Grows the patch from `start` until none of its edges reaches into the prism. Returns false if the
-// patch cannot cover the triangle.
+// Grows the patch from triangle `start` until none of its outer edges reaches into the prism.
+// Returns false if the patch cannot cover the triangle.
 bool PatchCover::lay(const Prism& prism, std::uint32_t start) {
   met_[start] = call_;
   open_.clear();
@@ -149,9 +152,9 @@ bool PatchCover::lay(const Prism& prism, std::uint32_t start) {
   return true;
 }
 
-// Returns an upper bound of a triangle's height inside the prism. If the heights of the corners are
-// within the limit, returns the largest one. Otherwise returns the height of the triangle's plane
-// if it is within the limit, else the height of the triangle's part inside the walls.
+// Returns an upper bound of a triangle's height inside the prism. Tries three bounds until one is
+// within the limit: the largest height of the corners, the height of the triangle's plane, and the
+// height of the triangle's part inside the walls.
 float PatchCover::height(const Prism& prism, const OpenTriangle& open,
                          const PrismPoint& apex) const {
   const float corners = std::max({open.from.height(), open.to.height(), apex.height()});
@@ -163,10 +166,10 @@ float PatchCover::height(const Prism& prism, const OpenTriangle& open,
 }
 
 // Returns an upper bound of the height of a triangle's part inside the walls. Clips the triangle at
-// each wall in turn; each clip makes about a dozen roundings.
+// each wall in turn. Each clip rounds about twelve times.
 float PatchCover::height_inside(const PrismPoint& a, const PrismPoint& b, const PrismPoint& c) {
   const float slack = 5 * std::max({a.slack, b.slack, c.slack});
-  // The clipped triangle has at most six corners; rounding may add a few more.
+  // Clipping gives at most six corners. Rounding may add a few more.
   std::array<Lanes, 9> polygon{a.at, b.at, c.at}, cut;
   std::size_t size = 3;
   for (std::size_t wall = 1; wall <= 3; ++wall) {
@@ -186,7 +189,8 @@ float PatchCover::height_inside(const PrismPoint& a, const PrismPoint& b, const 
   return height + slack;
 }
 
-// Adds a triangle to the patch. Returns false if the patch cannot cover the prism's triangle.
+// Adds a triangle to the patch. Returns false if the patch can no longer cover the prism's
+// triangle.
 bool PatchCover::step(const Prism& prism, const OpenTriangle& open) {
   const std::uint32_t t = open.triangle, next = kNext[open.edge], last = kNext[next];
   const PrismPoint &from = open.from, &to = open.to, apex = prism.place(surface_.point(t, last));
@@ -204,8 +208,8 @@ bool PatchCover::step(const Prism& prism, const OpenTriangle& open) {
   return cross_edge(prism, t, next, to, apex) && cross_edge(prism, t, last, apex, from);
 }
 
-// Adds the triangle to the degree of the patch if the triangle covers the centre. Returns false if
-// rounding leaves in doubt whether the triangle covers it.
+// Adds +1 or -1 to the degree of the patch if the triangle lies over the centre. Returns false if
+// rounding makes this uncertain.
 bool PatchCover::count(const PrismPoint& a, const PrismPoint& b, const PrismPoint& c,
                        const Lanes& centre) {
   const float one = area(a.at, b.at, centre), two = area(b.at, c.at, centre),
@@ -219,10 +223,10 @@ bool PatchCover::count(const PrismPoint& a, const PrismPoint& b, const PrismPoin
   return false;
 }
 
-// Whether an edge is proven not to reach into the prism: either it lies beyond a wall, or the whole
-// prism lies on one side of the edge. The coordinates used are at[1] and at[2] of PrismPoint. In
-// these, the corners a, b and c of the prism's triangle are (0, A), (0, 0) and (A, 0), where A is
-// twice the area of that triangle.
+// Whether an edge certainly does not reach into the prism: both ends lie beyond the same wall, or
+// the whole prism lies on one side of the edge. Only the coordinates at[1] and at[2] of PrismPoint
+// are used. In these, the corners a, b and c of the prism's triangle are (0, A), (0, 0) and (A, 0),
+// where A is twice the area of that triangle.
 bool PatchCover::passes_by(const Prism& prism, const PrismPoint& from, const PrismPoint& to) {
   if ((from.bits & to.bits & kBeyond) != 0) return true;
   const float u = to.at[1] - from.at[1], v = to.at[2] - from.at[2];
@@ -232,8 +236,8 @@ bool PatchCover::passes_by(const Prism& prism, const PrismPoint& from, const Pri
   return std::min({first, second, third}) > doubt || std::max({first, second, third}) < -doubt;
 }
 
-// Queues the triangle across an edge if the edge reaches into the prism. Returns false if such an
-// edge is a border edge.
+// Adds the triangle across an edge to the queue if the edge reaches into the prism. Returns false
+// if the edge reaches into the prism but is a border edge.
 bool PatchCover::cross_edge(const Prism& prism, std::uint32_t triangle, std::uint32_t edge,
                             const PrismPoint& from, const PrismPoint& to) {
   const std::uint32_t other = surface_.across(triangle, edge);

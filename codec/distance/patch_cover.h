@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds the distance from a triangle T to a surface by a patch of the surface that lies above or
-// below T.
+// Bounds the distance from a triangle T to a surface, using a patch of the surface that lies above
+// or below T.
 //
 // The prism over T is the set of points whose projection to T's plane lies in T. The patch starts
-// at one triangle and grows across every edge that reaches into the prism. If none of these edges
-// is a border edge, the projection of the patch to T has a degree. That is: count the triangles
-// over a point of T as +1 if they face up and as -1 if they face down; the sum is the same at every
-// point. If the degree is not 0, every point of T has a point of the patch straight above or below
-// it. The height of the patch over T then bounds the distance.
+// at one triangle and grows across every edge that reaches into the prism. Suppose that none of
+// these edges is a border edge. Count the patch's triangles over a point of T: +1 if they face up,
+// -1 if they face down. The sum is then the same at every point of T and is called the degree of
+// the patch. If the degree is not 0, part of the patch lies straight above or below every point of
+// T. The largest height of the patch over T then bounds the distance.
 #pragma once
 
 #include <cmath>
@@ -20,16 +20,17 @@
 
 namespace vitrine::inline codec {
 
-// Records which triangles of a surface are close to the triangles that its patches have covered.
+// Records which triangles of a surface are close to triangles that were covered by patches.
 struct Overlaps {
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
   // Per triangle of the surface: the mark of the last cover() call that found the whole triangle
-  // within `limit` of the triangle to cover; 0 if no call did.
+  // within `limit` of the covered triangle; 0 if there was no such call.
   std::vector<std::uint16_t> mark;
-  // Per triangle: number of the last cover() call that reached it, from 1; 0 if none did.
+  // Per triangle: number of the last cover() call whose patch included it, counted from 1; 0 if
+  // none.
   std::vector<std::uint32_t> met;
-  std::vector<std::uint32_t> calls;  // per call: the covered triangle, or kNone if the call failed
+  std::vector<std::uint32_t> calls;  // per call: covered triangle, or kNone if the call failed
 
   // Returns a covered triangle near triangle t, or nullopt if none is known.
   std::optional<std::uint32_t> near(std::uint32_t t) const {
@@ -43,15 +44,16 @@ class PatchCover {
   explicit PatchCover(const WitnessSurface& surface);
 
   struct CoverResult {
-    // Whether every point of the triangle is within `height` of the surface.
+    // Whether every point of the covered triangle is within `height` of the surface.
     bool is_covered = false;
-    // Upper bound of the distance, model units; at most `limit`, up to rounding. Also bounds the
-    // distance of each marked triangle from `triangle`.
+    // Upper bound of the distance in model units. At most `limit`, up to rounding. Each marked
+    // triangle is also within this distance of the covered triangle.
     double height = 0;
   };
-  // Tries to cover `triangle` by a patch that starts at the surface's triangle `start`, which
-  // should be near the centre of `triangle`. `number` is the caller's number for `triangle`. Stores
-  // `mark` (not 0) for those triangles of the patch that lie within `limit` of `triangle`.
+  // Tries to cover `triangle` by a patch of the surface. The patch starts at the surface's triangle
+  // `start`, which should be near the centre of `triangle`. `number` identifies `triangle` in
+  // Overlaps::calls. Stores `mark` (not 0) for those triangles of the patch that lie within `limit`
+  // of `triangle`.
   CoverResult cover(const TrianglePoints& triangle, std::uint32_t number, std::uint32_t start,
                     double limit, std::uint16_t mark);
 
@@ -62,21 +64,22 @@ class PatchCover {
   struct Prism;
   // A point in the coordinates of the prism.
   struct PrismPoint {
-    // Lane 0: height over the plane, negative below it. Lanes 1 to 3: distance from each wall,
-    // positive inside the prism, times the length of the wall.
+    // Lane 0: height over the triangle's plane, negative below it. Lanes 1 to 3: distance from each
+    // wall times the length of the wall, positive inside the prism.
     Lanes at;
     float slack;    // error bound of `at`
-    float squared;  // upper bound of the squared distance from the triangle
-    unsigned bits;  // combination of kBeyond, kAside and kFar
+    float squared;  // upper bound of the squared distance to the triangle
+    unsigned bits;  // bitwise or of kBeyond, kAside and kFar flags
 
     float height() const { return std::abs(at[0]) + slack; }
   };
-  static constexpr unsigned kBeyond = 7;  // bit k: the point is proven to be beyond wall k
-  // Two bits per wall: the point is proven to be on one side of `centre`.
+  static constexpr unsigned kBeyond = 7;  // bit k: the point is certainly beyond wall k + 1
+  // Two bits per wall: the point is certainly farther from the wall than `centre`, or certainly
+  // closer.
   static constexpr unsigned kAside = 63 << 3;
-  static constexpr unsigned kFar = 1 << 9;  // the point is farther away than kFarthest
-  // A triangle to examine. `edge` is the edge across which the patch reached it, from corner `edge`
-  // to the next.
+  static constexpr unsigned kFar = 1 << 9;  // the point is farther from corner a than kFarthest
+  // A triangle still to be examined. `edge` is the edge across which the patch reached the
+  // triangle. It runs from corner `edge` to the next corner.
   struct OpenTriangle {
     std::uint32_t triangle, edge;
     PrismPoint from, to;
@@ -93,13 +96,13 @@ class PatchCover {
 
   const WitnessSurface& surface_;
   std::vector<std::uint16_t> marks_;
-  std::vector<std::uint32_t> met_, calls_;  // see Overlaps
+  std::vector<std::uint32_t> met_, calls_;  // same meaning as in Overlaps
   std::uint16_t mark_ = 0;
   std::uint32_t call_ = 0;
   std::vector<OpenTriangle> open_;
-  int degree_ = 0;     // degree of the patch so far
-  float height_ = 0;   // height of the patch so far, in units of the prism
-  float squared_ = 0;  // largest squared distance of a marked triangle, in units of the prism
+  int degree_ = 0;     // degree of the triangles added so far
+  float height_ = 0;   // largest height so far, in units of the prism
+  float squared_ = 0;  // largest squared distance of marked triangles, in prism units
 };
 
 }  // namespace vitrine::inline codec

@@ -8,7 +8,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr int kMaxIterations = 100;
-// Alignment ends if an iteration lowers the mean squared distance by less than this share.
+// The alignment stops once an iteration lowers the mean squared distance by less than this share.
 constexpr double kConverged = 1e-7;
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
@@ -32,8 +32,7 @@ void rotate(Matrix4& a, Matrix4& vectors, std::size_t p, std::size_t q) {
   }
 }
 
-// Returns the eigenvector of the largest eigenvalue of a symmetric matrix, computed by Jacobi
-// rotations.
+// Returns the eigenvector for the largest eigenvalue of a symmetric matrix. Uses Jacobi rotations.
 std::array<double, 4> top_eigenvector(Matrix4 a) {
   Matrix4 vectors{};
   for (std::size_t k = 0; k < 4; ++k)
@@ -80,7 +79,7 @@ RigidMotion then(const RigidMotion& first, const RigidMotion& second) {
 RigidMotion fit_motion(std::span<const Vec3> from, std::span<const Vec3> to) {
   if (from.empty()) return {};
   const Vec3 a = mean(from), b = mean(to);
-  std::array<Vec3, 3> m{};  // sum of from * to^T, by rows
+  std::array<Vec3, 3> m{};  // sum of from * to^T over all points, row by row
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Vec3 p = from[i] - a, q = to[i] - b;
     m[0] += q * p.x, m[1] += q * p.y, m[2] += q * p.z;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Aligns a surface with another one by rotation and translation, using iterated closest points
-// [BM92].
+// Aligns a surface with another surface by rotation and translation, using the iterative closest
+// point algorithm [BM92].
 #pragma once
 
 #include <array>
@@ -23,12 +23,12 @@ struct RigidMotion {
 // Returns the motion that applies `first`, then `second`.
 RigidMotion then(const RigidMotion& first, const RigidMotion& second);
 
-// Returns the motion that moves the points `from` closest to the points `to`, by least squares
-// [Horn87]. Both spans must have the same length.
+// Returns the motion of `from` that minimises the sum of squared distances between corresponding
+// points [Horn87]. Both spans must have the same length.
 RigidMotion fit_motion(std::span<const Vec3> from, std::span<const Vec3> to);
 
-// Returns the motion that moves `points` onto `surface`, starting from their current positions
-// [BM92].
+// Returns the motion that aligns `points` with `surface` [BM92]. The search starts from the points'
+// current positions.
 RigidMotion align(std::span<const Vec3> points, const TriangleBvh& surface);
 
 }  // namespace vitrine::inline codec

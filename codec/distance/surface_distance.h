@@ -14,7 +14,7 @@ namespace vitrine::inline codec {
 struct MeasureOptions {
   std::size_t samples = 200'000;  // samples per surface, at least 1
   std::uint64_t seed = 1;
-  bool aligns = false;  // whether A is first aligned with B by rotation and translation
+  bool aligns = false;  // whether A is first moved to fit B
 };
 
 struct OneWayDistance {
@@ -23,7 +23,7 @@ struct OneWayDistance {
 
 struct SurfaceDistance {
   double rms = 0, max = 0;  // the larger of both directions, model units
-  // Percentages of the diagonal of B's bounding box. 0 if the box is a point.
+  // rms and max as percentages of the diagonal of B's bounding box. 0 if the box is a point.
   double rms_percent = 0, max_percent = 0;
   OneWayDistance a_to_b, b_to_a;
 };
@@ -33,9 +33,9 @@ struct SurfaceDistance {
 Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
                                   const MeasureOptions& options = {});
 
-// Returns only the rms distance, the larger of both directions. Takes bounding volume hierarchies,
-// so that the caller builds each only once even if it measures a surface several times. Ignores
-// `options.aligns`. Both surfaces must have at least one face.
+// Returns the larger rms distance of the two directions. Takes bounding volume hierarchies, so that
+// a caller who measures a surface several times builds each only once. Ignores `options.aligns`.
+// Both surfaces must have at least one face.
 double rms_distance(const TriangleBvh& a, const TriangleBvh& b, const MeasureOptions& options = {});
 
 }  // namespace vitrine::inline codec

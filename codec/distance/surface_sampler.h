@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples points of a mesh uniformly by area. Gives the same points on every machine.
+// Samples points of a mesh, uniformly by area. The points are the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace vitrine::inline codec {
 
 struct SurfaceSample {
   Vec3 point;
-  std::uint32_t triangle;  // triangle of the surface that contains the point
+  std::uint32_t triangle;  // index of the triangle that contains the point
 };
 
-// Returns stratified samples. Sample i lies in the i-th of `count` equal shares of the area, in the
-// order of triangles. Returns no samples if the surface has no triangle, and only points of the
-// last triangle if the area of the surface is zero.
+// Returns stratified samples: the area is divided into `count` equal shares in the order of
+// triangles, and sample i lies in share i. Returns no samples if the surface has no triangle. If
+// the area is zero, all samples lie in the last triangle.
 std::vector<SurfaceSample> sample_surface(const TriangleBvh& surface, std::size_t count,
                                           std::uint64_t seed);
 

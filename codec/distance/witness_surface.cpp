@@ -10,7 +10,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr int kMaxSteps = 64;  // maximum number of steps in a walk
+constexpr int kMaxSteps = 64;        // maximum number of steps in a walk
+constexpr double kPrecision = 0.02;  // of searches in slender surfaces
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
 // A triangle is thin if the squared ratio of its width to its length is at most kThin.
 constexpr double kThin = 1e-12;
@@ -21,12 +22,12 @@ Vec3 inward(const TrianglePoints& t, const Vec3& normal, std::uint32_t k) {
   return cross(normal, corner(t, (k + 1) % 3) - corner(t, k));
 }
 
-// A triangle, and functions that measure points as seen along its normal.
+// A triangle with functions that measure points in its plane, as seen along its normal.
 struct SeenAlongNormal {
   TrianglePoints corners;
   std::array<Vec3, 3> edge;
   Vec3 normal;
-  double area;  // squared length of `normal`, which is 4 times the squared area of the triangle
+  double area;  // squared length of `normal`: 4 times the squared triangle area
 
   explicit SeenAlongNormal(const TrianglePoints& t)
       : corners(t),
@@ -36,13 +37,14 @@ struct SeenAlongNormal {
 
   double squared_length(std::size_t k) const { return dot(edge[k], edge[k]); }
 
-  // Whether the triangle is so thin that its normal may point anywhere because of rounding.
+  // Whether the triangle is so thin that rounding makes the direction of its normal meaningless.
   bool is_thin() const {
     const double longest = std::max({squared_length(0), squared_length(1), squared_length(2)});
     return !(area > kThin * longest * longest);
   }
 
-  // Returns how far p lies inside each edge, multiplied by the lengths of the edge and the normal.
+  // Returns, for each edge, the distance of p from the edge, positive on the inner side. The
+  // distance is multiplied by the lengths of the edge and of the normal.
   std::array<double, 3> depth(const Vec3& p) const {
     const Vec3 turned = cross(p - corners.a, normal);
     const double first = dot(edge[0], turned), last = dot(edge[2], turned);
@@ -50,8 +52,8 @@ struct SeenAlongNormal {
   }
 };
 
-// Returns the squared distance from p to the triangle, or infinity if it is proven to exceed
-// `limit`.
+// Returns the squared distance from p to the triangle, or infinity if that distance certainly
+// exceeds `limit`.
 double squared_within(const SeenAlongNormal& seen, const Vec3& p, double limit) {
   const double height = dot(seen.normal, p - seen.corners.a), high = limit * seen.area;
   if (height * height > high) return kTooFar;
@@ -65,7 +67,8 @@ double squared_within(const SeenAlongNormal& seen, const Vec3& p, double limit) 
   return over ? height * (height / seen.area) : squared_distance(seen.corners, p);
 }
 
-// Returns the inward direction at edge k as a unit vector, or NaN if the triangle has no area.
+// Returns the unit vector perpendicular to edge k that points into the triangle, or NaN if the
+// triangle has no area.
 Vec3 unit_inward(const TrianglePoints& t, std::uint32_t k) {
   const Vec3 in = inward(t, normal_of(t), k);
   return in * (1 / length(in));
@@ -116,7 +119,7 @@ std::uint32_t WitnessSurface::stroll(const Vec3& p, std::uint32_t start) const {
     const SeenAlongNormal seen(triangle(at));
     const std::array<double, 3> depth = seen.depth(p);
     std::uint32_t next = at;
-    double most = 0, of = 1;  // squared distance beyond an edge, as the fraction most / of
+    double most = 0, of = 1;  // largest squared distance beyond an edge, as the fraction most / of
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (!(depth[k] < 0)) continue;
       const double size = seen.squared_length(k);
@@ -147,7 +150,8 @@ std::uint32_t WitnessSurface::walk(const Vec3& p, std::uint32_t start) const {
 }
 
 ClosestTriangle WitnessSurface::closest(const Vec3& p, std::uint32_t hint) const {
-  return bvh_->closest(p, {squared_distance(triangle(hint), p), hint});
+  return bvh_->closest(p, {squared_distance(triangle(hint), p), hint},
+                       bvh_->is_slender() ? kPrecision : 0);
 }
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface whose triangles serve as witnesses: the distance to one triangle is an upper bound of
-// the distance to the whole surface.
+// A surface whose triangles serve as witnesses. A witness is a triangle whose distance is an upper
+// bound of the distance to the whole surface.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ class WitnessSurface {
  public:
   // `bvh` must outlive this object.
   explicit WitnessSurface(const TriangleBvh& bvh);
-  // Makes the surface of `bvh`, which must be a copy of the hierarchy of `shape` with moved
-  // vertices. Both arguments must outlive this object.
+  // Creates the surface of `bvh`, which must be a copy of the hierarchy of `shape` in which only
+  // vertices were moved. Both arguments must outlive this object.
   WitnessSurface(const TriangleBvh& bvh, const WitnessSurface& shape);
   WitnessSurface(WitnessSurface&&) = default;
 
@@ -25,42 +25,45 @@ class WitnessSurface {
   TrianglePoints triangle(std::uint32_t t) const { return bvh_->triangle(t); }
   // Returns corner k of triangle t.
   const Vec3& point(std::uint32_t t, std::uint32_t k) const { return bvh_->point(t, k); }
-  // Returns the triangle on the other side of an edge of t, or t itself if the edge is a border
-  // edge. Edge k runs from corner k to the next corner.
+  // Returns the triangle across an edge of t, or t itself if the edge is a border edge. Edge k runs
+  // from corner k to the next corner.
   std::uint32_t across(std::uint32_t t, std::uint32_t edge) const { return across_[t][edge] / 3; }
-  // Returns the index that the edge has in the triangle on its other side.
+  // Returns the index of the same edge in the triangle across it.
   std::uint32_t edge_across(std::uint32_t t, std::uint32_t edge) const {
     return across_[t][edge] % 3;
   }
 
-  // Returns the largest distance from one of the points to triangle t. If that distance exceeds
-  // `most`, returns infinity, which takes much less time.
+  // Returns the largest distance from any of `points` to triangle t. Returns infinity, which is
+  // much faster, if that distance exceeds `most`.
   double farthest_within(std::span<const Vec3> points, std::uint32_t t, double most) const;
 
-  // Returns how far p lies beyond each edge of t, seen along the normal of t. Negative numbers mean
-  // inside.
+  // Returns, for each edge of t, how far p lies beyond the edge, as seen along the normal of t.
+  // Negative numbers mean that p is inside.
   std::array<double, 3> overhang(const Vec3& p, std::uint32_t t) const;
 
-  // The plane that halves the angle between t and its neighbour across an edge. The unit normal
+  // The plane that bisects the angle between t and its neighbour across an edge. Its unit normal
   // points to the side of t. The normal is zero if one of the two triangles has no area.
   struct Plane {
     Vec3 point, normal;
   };
   Plane bisector(std::uint32_t t, std::uint32_t edge) const;
 
-  // Returns a triangle above or below p, found by crossing the edges beyond which p lies. Several
-  // times faster than walk(), but unreliable on strongly curved surfaces.
+  // Returns a triangle above or below p. Starts at `start` and repeatedly crosses an edge beyond
+  // which p lies. Several times faster than walk(), but unreliable on strongly curved surfaces.
   std::uint32_t stroll(const Vec3& p, std::uint32_t start) const;
-  // Returns a triangle near p that is closer to p than its neighbours are. Walks from `start`.
+  // Walks from `start` to a triangle that is closer to p than its neighbours are, and returns it.
   std::uint32_t walk(const Vec3& p, std::uint32_t start) const;
-  // Returns the closest triangle of the whole surface. `hint` makes the search faster.
+  // Returns the triangle of the whole surface that is closest to p. A triangle `hint` near p makes
+  // the search faster. If the surface is slender (triangle_bvh.h), another triangle may be closer,
+  // by a factor of at most 1.02: all triangles around one edge are equally close to points beyond
+  // it.
   ClosestTriangle closest(const Vec3& p, std::uint32_t hint) const;
 
  private:
   const TriangleBvh* bvh_;
   std::vector<std::array<std::uint32_t, 3>> own_across_;
-  // Per triangle and edge: the opposite half-edge (face_neighbours.h). Refers to own_across_ or to
-  // that of the shape.
+  // Per triangle and edge: the opposite half-edge (face_neighbours.h). The data is own_across_ or
+  // that of `shape`.
   std::span<const std::array<std::uint32_t, 3>> across_;
 };
 

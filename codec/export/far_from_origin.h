@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides whether single precision is precise enough for the coordinates of a mesh.
+// Decides whether single precision suffices for the coordinates of a mesh.
 #pragma once
 
 #include "codec/core/bounds.h"
@@ -7,10 +7,10 @@
 namespace vitrine::inline codec {
 
 // Whether single precision would move vertices by more than about a millionth of the longest side
-// of their bounding box. This happens to objects in map coordinates.
+// of `bounds`. This is typical of objects in map coordinates.
 bool is_far_from_origin(const Bounds& bounds);
 
-// Returns the largest distance by which single precision moves a coordinate.
+// Returns the largest error, in model units, when a coordinate is rounded to single precision.
 double most_rounding(const Bounds& bounds);
 
 }  // namespace vitrine::inline codec

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -32,7 +33,7 @@ class FileWriter {
   }
   void text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
 
-  // Writes the number with the fewest digits that read back as the same number.
+  // Writes the shortest decimal text that reads back as the same number.
   template <class T>
   void number(T value) {
     char digits[32];
@@ -44,6 +45,22 @@ class FileWriter {
     number(static_cast<Real>(v.x)), text(separator);
     number(static_cast<Real>(v.y)), text(separator);
     number(static_cast<Real>(v.z));
+  }
+
+  // Writes a unit vector with four decimals, which is an angle within 0.01 degrees.
+  void unit_vector(const Vec3& v) {
+    const auto rounded = [](double part) { return std::round(part * 1e4) / 1e4 + 0.0; };
+    numbers<double>({rounded(v.x), rounded(v.y), rounded(v.z)});
+  }
+
+  // Writes a JSON string. `value` must be UTF-8. Control characters are left out.
+  void quoted(std::string_view value) {
+    text("\"");
+    for (const char c : value) {
+      if (c == '"' || c == '\\') text("\\");
+      if (static_cast<unsigned char>(c) >= 0x20) text({&c, 1});
+    }
+    text("\"");
   }
 
   std::size_t size() const { return bytes_.size(); }

@@ -10,7 +10,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Adds an attribute that has three components and one value per vertex.
+// Adds an attribute with three components per vertex.
 template <class T, class Value>
 void add_attribute(draco::Mesh& target, draco::GeometryAttribute::Type role, draco::DataType type,
                    bool is_normalised, std::size_t count, Value value_of) {

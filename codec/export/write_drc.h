@@ -11,16 +11,16 @@
 namespace vitrine::inline codec {
 
 struct DrcOptions {
-  // Bits per coordinate of the bounding box, 1 to 30. The default is as fine as the single
-  // precision of the other formats, so the rounding is negligible compared with a level's error.
+  // Bits per coordinate of the bounding box, 1 to 30. The default is about as fine as single
+  // precision, so the rounding is negligible compared with a level's error.
   int bits = 24;
-  // Compression level, as in draco_encoder -cl. 0 is fastest, 10 gives the smallest file.
+  // Compression level, like -cl of draco_encoder: 0 is fastest, 10 gives the smallest file.
   int effort = 7;
 };
 
-// Returns a Draco edgebreaker file [Draco]. `mesh` must have passed the checks of write_mesh(): it
-// has faces, valid indices, no colours or one per vertex, and positions that fit a float. Fails
-// (kUnsupported) with the reason that Draco gives.
+// Returns a Draco edgebreaker file [Draco]. `mesh` must have faces, valid indices, positions that
+// fit a float, and either no colours or one per vertex; write_mesh() checks this. Fails
+// (kUnsupported) with the error message of Draco.
 Expected<std::vector<std::uint8_t>> write_drc(const TriangleMesh& mesh,
                                               const DrcOptions& options = {});
 

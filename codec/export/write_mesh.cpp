@@ -5,13 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "codec/export/far_from_origin.h"
 #include "codec/export/write_drc.h"
 #include "codec/export/writers.h"
 #include "codec/mesh/unit.h"
+#include "codec/mesh/vertex_normals.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -25,8 +28,9 @@ Expected<void> check(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   if (mesh.faces.empty())
     return fail(ErrorCode::kBadInput, "there are no faces to write; ask for a finer level");
-  // GLB and STL store sizes as 32-bit byte counts, and a face takes up to 50 bytes.
-  if (mesh.faces.size() > 80'000'000 || vertices > 160'000'000) {
+  // GLB and STL store sizes as 32-bit byte counts. A face takes up to 50 bytes in STL. In GLB a
+  // face takes 12 bytes and a vertex 32.
+  if (mesh.faces.size() > 80'000'000 || vertices > 100'000'000) {
     return fail(ErrorCode::kLimit, "the mesh is too large to export; ask for fewer triangles");
   }
   if (!mesh.attributes.fit(vertices)) {
@@ -50,11 +54,117 @@ Expected<void> check(const TriangleMesh& mesh) {
   return {};
 }
 
-TriangleMesh in_metres(TriangleMesh mesh, std::string_view unit) {
-  const double metres = metres_per(unit).value_or(1);
+Expected<void> check(const TriangleMesh& mesh, const Texturing& texturing, MeshFormat format) {
+  if (texturing.empty()) return {};
+  const bool needs_base_colours = format == MeshFormat::kPly || format == MeshFormat::kVrml;
+  const bool is_glb = format == MeshFormat::kGlb;
+  bool is_good = (is_glb || texturing.materials.size() == 1) &&
+                 texturing.coordinates[0].size() == mesh.faces.size() &&
+                 texturing.face_materials.size() == mesh.faces.size() &&
+                 (texturing.coordinates[1].empty() ||
+                  (is_glb && texturing.coordinates[1].size() == mesh.faces.size())) &&
+                 (!needs_base_colours || texturing.materials.front().base_colour_map.has_value());
+  std::uint64_t bytes = 0;
+  for (const EncodedPicture& picture : texturing.pictures)
+    bytes += picture.bytes.size();
+  for (const Material& material : texturing.materials) {
+    for_each_map(material, [&](const TextureMap& map) {
+      is_good = is_good && map.coordinates < kCoordinateSets &&
+                !texturing.coordinates[map.coordinates].empty() &&
+                map.picture < texturing.pictures.size();
+    });
+  }
+  for (const std::uint16_t material : texturing.face_materials)
+    is_good = is_good && material < texturing.materials.size();
+  if (!is_good) {
+    return fail(ErrorCode::kBadInput,
+                "the texture does not fit the mesh or the format; give one material with a base "
+                "colour map, and texture coordinates for each face");
+  }
+  if (bytes > 1'000'000'000)
+    return fail(ErrorCode::kLimit, "the pictures are too large to export; ask for smaller ones");
+  // GLB stores 12 bytes for a face and up to three vertices of 32 bytes.
+  if (mesh.faces.size() > 30'000'000) {
+    return fail(ErrorCode::kLimit,
+                "the textured mesh is too large to export; ask for fewer triangles");
+  }
+  return {};
+}
+
+Expected<void> check(MeshFormat format, const ExportOptions& options) {
+  const ExportFormat& row = row_of(format);
+  if (options.compression != Compression::kNone && format != MeshFormat::kGlb)
+    return fail(ErrorCode::kBadInput, "only GLB files can be compressed; choose GLB");
+  if (!row.has_fixed_frame) return {};
+  const bool is_other_unit = !options.unit_in_file.empty() && options.unit_in_file != row.unit;
+  if (!is_other_unit && options.up.value_or(row.up) == row.up) return {};
+  return fail(ErrorCode::kBadInput, std::string(row.name) +
+                                        " files are in metres with y up; choose these, or "
+                                        "another format");
+}
+
+// Returns the options of the file: the unit that its positions have, and the error in that unit.
+// Sets `factor` to the length of the positions' unit in that unit.
+ExportOptions options_of_file(MeshFormat format, const ExportOptions& options, double& factor) {
+  ExportOptions file = options;
+  const auto metres = metres_per(options.unit);
+  const ExportFormat& row = row_of(format);
+  const std::string_view wanted = row.has_fixed_frame ? row.unit : options.unit_in_file;
+  const auto metres_in_file = metres_per(wanted);
+  factor = metres && metres_in_file ? *metres / *metres_in_file : 1;
+  if (metres && metres_in_file) file.unit = wanted;
+  if (!metres && row.has_fixed_frame) file.unit = {};
+  if (file.about.error) *file.about.error *= factor;
+  if (file.grid) file.grid = ExportGrid{file.grid->origin * factor, file.grid->step * factor};
+  return file;
+}
+
+// Scales positions, and turns positions and normals so that z points up.
+void place(TriangleMesh& mesh, std::vector<Vec3>& normals, double factor, bool has_z_up) {
   for (Vec3& p : mesh.positions)
-    p = p * metres;
-  return mesh;
+    p = has_z_up ? turn_y_up_to_z(p * factor) : p * factor;
+  if (!has_z_up) return;
+  for (Vec3& n : normals)
+    n = turn_y_up_to_z(n);
+}
+
+// Writes a mesh that has the unit and the axes of the file. `library` is the name of the OBJ
+// material library.
+Expected<FileBytes> placed_file(const TriangleMesh& mesh, const Texturing& texturing,
+                                std::span<const Vec3> normals, MeshFormat format,
+                                std::string_view library, const ExportOptions& options) {
+  const std::vector<Statement> statements = statements_of(options);
+  switch (format) {
+    case MeshFormat::kPly:
+      return write_ply(mesh, texturing, normals, statements);
+    case MeshFormat::kGlb:
+      return write_glb(mesh, texturing, normals, options);
+    case MeshFormat::kObj:
+      return write_obj(mesh, texturing, normals, library, statements);
+    case MeshFormat::kStl:
+      return write_stl(mesh, statements);
+    case MeshFormat::kDrc:
+      return write_drc(mesh);
+    case MeshFormat::kVrml:
+      return write_vrml(mesh, texturing, normals, statements);
+  }
+  return fail(ErrorCode::kUnsupported,
+              "unknown mesh format; choose " + std::string(kExportExtensions));
+}
+
+Expected<FileBytes> mesh_file(const TriangleMesh& mesh, const Texturing& texturing,
+                              MeshFormat format, std::string_view library,
+                              const ExportOptions& options) {
+  const bool has_normals = options.normals == Normals::kSmooth && format != MeshFormat::kStl &&
+                           format != MeshFormat::kDrc;
+  std::vector<Vec3> normals = has_normals ? unit_normals(mesh) : std::vector<Vec3>();
+  double factor = 1;
+  const ExportOptions file = options_of_file(format, options, factor);
+  const bool has_z_up = options.up == UpAxis::kZ;
+  if (factor == 1 && !has_z_up) return placed_file(mesh, texturing, normals, format, library, file);
+  TriangleMesh placed = mesh;
+  place(placed, normals, factor, has_z_up);
+  return placed_file(placed, texturing, normals, format, library, file);
 }
 
 }  // namespace
@@ -71,24 +181,45 @@ std::optional<MeshFormat> format_of_extension(std::string_view extension) {
 }
 
 Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
-                                               std::string_view unit) {
+                                               const ExportOptions& options) {
   if (auto ok = check(mesh); !ok) return tl::unexpected(ok.error());
-  switch (format) {
-    case MeshFormat::kPly:
-      return write_ply(mesh, unit);
-    case MeshFormat::kGlb:
-      return write_glb(in_metres(mesh, unit));
-    case MeshFormat::kObj:
-      return write_obj(mesh, unit);
-    case MeshFormat::kStl:
-      return write_stl(mesh, unit);
-    case MeshFormat::kDrc:
-      return write_drc(mesh);
-    case MeshFormat::kVrml:
-      return write_vrml(in_metres(mesh, unit));
+  if (auto ok = check(format, options); !ok) return tl::unexpected(ok.error());
+  return mesh_file(mesh, {}, format, {}, options);
+}
+
+std::string plain_name(std::string_view name) {
+  const auto is_plain_byte = [](char c) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    return is_letter || (c >= '0' && c <= '9') || c == '.' || c == '-';
+  };
+  std::string out(name);
+  std::ranges::replace_if(out, std::not_fn(is_plain_byte), '_');
+  return out;
+}
+
+Expected<std::vector<MeshFile>> write_textured_mesh(const TriangleMesh& mesh, Texturing texturing,
+                                                    MeshFormat format, std::string_view stem,
+                                                    const ExportOptions& options) {
+  if (roles_in(format).none()) texturing = {};
+  if (auto ok = check(mesh); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check(mesh, texturing, format); !ok) return tl::unexpected(ok.error());
+  if (options.compression != Compression::kNone && texturing.materials.size() > 1) {
+    return fail(ErrorCode::kUnsupported,
+                "a compressed GLB has one material; leave out the compression");
   }
-  return fail(ErrorCode::kUnsupported,
-              "unknown mesh format; choose " + std::string(kExportExtensions));
+  if (auto ok = check(format, options); !ok) return tl::unexpected(ok.error());
+  const std::string name = plain_name(stem), library = name + ".mtl";
+  for (EncodedPicture& picture : texturing.pictures)
+    picture.name = name + '_' + plain_name(picture.name);
+  auto file = mesh_file(mesh, texturing, format, library, options);
+  if (!file) return tl::unexpected(file.error());
+  std::vector<MeshFile> files;
+  files.push_back({name + '.' + std::string(row_of(format).extension), *std::move(file)});
+  if (texturing.empty() || !has_companions(format)) return files;
+  if (format == MeshFormat::kObj) files.push_back({library, write_obj_library(texturing)});
+  for (EncodedPicture& picture : texturing.pictures)
+    files.push_back({std::move(picture.name), std::move(picture.bytes)});
+  return files;
 }
 
 std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a mesh in one of the common file formats, to memory.
+// Writes a mesh in a common file format. The result is in memory.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,29 +11,35 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/fixed_text.h"
+#include "codec/export/export_options.h"
+#include "codec/format/manifest.h"
+#include "codec/mesh/texturing.h"
 #include "codec/mesh/triangle_mesh.h"
 
 namespace vitrine::inline codec {
 
-// Positions have single precision, except in OBJ and VRML (nine digits) and in DRC (24 bits per
-// coordinate of the bounding box).
+// File formats. Positions have single precision, except in OBJ and VRML (nine digits) and in DRC
+// (24 bits per coordinate of the bounding box).
 enum class MeshFormat {
-  kPly,   // binary little-endian; colours as bytes
-  kGlb,   // glTF 2.0; colours in linear light, as glTF requires, as normalised 16-bit numbers
-  kObj,   // colours as three numbers after each position
-  kStl,   // binary; stores no colours and does not share vertices
-  kDrc,   // Draco edgebreaker; exact colours; Draco reorders vertices and faces
-  kVrml,  // VRML 97 with one IndexedFaceSet
+  kPly,   // binary little-endian; a texture as MeshLab writes it, or colours as bytes
+  kGlb,   // glTF 2.0; a texture, or colours in linear light; compressed if asked for
+  kObj,   // a texture in a material library, or three numbers of a colour after each position
+  kStl,   // binary; no colours; each face has its own vertices
+  kDrc,   // Draco edgebreaker; exact colours; vertices and faces are reordered
+  kVrml,  // VRML 97 with one IndexedFaceSet; a texture or colours
 };
 
 struct ExportFormat {
   MeshFormat format;
   std::string_view name, extension, media_type;
+  // The unit and the axis by the format's custom. Without a unit, files have that of the model.
+  std::string_view unit = {};
+  UpAxis up = UpAxis::kY;
+  bool has_fixed_frame = false;  // whether the format's standard demands unit and axis
 };
 
-// The table of mesh formats that can be written, in the order of MeshFormat. All texts that list
-// the formats are generated from it. `ctest -R lint.formats` checks the texts that cannot be
-// generated.
+// The table of mesh formats that can be written, in the order of MeshFormat. Lists of the formats
+// in texts are generated from this table, or checked against it by `ctest -R lint.formats`.
 inline constexpr ExportFormat kExportFormats[] = {
     {.format = MeshFormat::kPly,
      .name = "PLY",
@@ -41,21 +48,33 @@ inline constexpr ExportFormat kExportFormats[] = {
     {.format = MeshFormat::kGlb,
      .name = "GLB",
      .extension = "glb",
-     .media_type = "model/gltf-binary"},
+     .media_type = "model/gltf-binary",
+     .unit = "m",
+     .has_fixed_frame = true},
     {.format = MeshFormat::kObj, .name = "OBJ", .extension = "obj", .media_type = "model/obj"},
-    {.format = MeshFormat::kStl, .name = "STL", .extension = "stl", .media_type = "model/stl"},
+    {.format = MeshFormat::kStl,
+     .name = "STL",
+     .extension = "stl",
+     .media_type = "model/stl",
+     .unit = "mm",
+     .up = UpAxis::kZ},
     {.format = MeshFormat::kDrc,
      .name = "DRC",
      .extension = "drc",
      .media_type = "application/octet-stream"},
-    {.format = MeshFormat::kVrml, .name = "VRML", .extension = "wrl", .media_type = "model/vrml"},
+    {.format = MeshFormat::kVrml,
+     .name = "VRML",
+     .extension = "wrl",
+     .media_type = "model/vrml",
+     .unit = "m",
+     .has_fixed_frame = true},
 };
 
 constexpr const ExportFormat& row_of(MeshFormat format) {
   return kExportFormats[static_cast<std::size_t>(format)];
 }
 
-// The three constants below are "ply, glb, obj, stl, drc or wrl", ".ply, .glb, …" and
+// Each constant below lists all formats: "ply, glb, obj, stl, drc or wrl", ".ply, .glb, …" and
 // "ply,glb,obj,stl,drc,wrl".
 constexpr std::string_view extension_of(const ExportFormat& format) {
   return format.extension;
@@ -65,22 +84,69 @@ inline constexpr FixedText kExportSuffixes =
     concatenate(".", join(kExportFormats, extension_of, ", .", ", ."));
 inline constexpr FixedText kExportChoice = join(kExportFormats, extension_of, ",", ",");
 
-// Returns the format with this file name extension, in upper or lower case, with or without the
-// dot. Returns nullopt if there is none.
+// Returns the format with this file name extension, or nullopt if there is none. The extension may
+// be in upper or lower case, with or without the dot.
 std::optional<MeshFormat> format_of_extension(std::string_view extension);
 
-// Returns the bytes of the file. `unit` is the unit of the positions, or empty if it is unknown.
-// PLY, OBJ and STL files state the unit in a comment. GLB and VRML require metres, so positions are
-// scaled to metres if `unit` is one of kLengthUnits. If the mesh is far from the origin, PLY, OBJ,
-// GLB and VRML files keep double precision; STL and DRC files cannot.
+// The roles of pictures that a format holds, by the number of the PictureRole. OBJ has no standard
+// statement for PictureRole::kSurface.
+constexpr std::bitset<kPictureRoles> roles_in(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kGlb:
+      return 0b1111;
+    case MeshFormat::kObj:
+      return 0b1011;
+    case MeshFormat::kPly:
+    case MeshFormat::kVrml:
+      return 0b0001;
+    default:
+      return 0;
+  }
+}
+
+// Whether a textured mesh in this format has its pictures in files beside the mesh file.
+constexpr bool has_companions(MeshFormat format) {
+  return format == MeshFormat::kPly || format == MeshFormat::kObj || format == MeshFormat::kVrml;
+}
+
+// Returns the bytes of the file. PLY, OBJ, STL, GLB and VRML files state what they are
+// (statements.h); STL files as far as 80 bytes allow. If the unit is unknown, they state that, and
+// positions are not scaled. If the mesh is far from the origin, PLY, OBJ, GLB and VRML files keep
+// double precision; STL and DRC files cannot. Smooth normals are those of unit_normals()
+// (vertex_normals.h). A compressed GLB has at most one material.
 //
-// Fails with kBadInput if the mesh has no faces or a position does not fit a float. Fails with
-// kLimit if the file would exceed the 32-bit sizes of a format.
+// Fails (kBadInput) if the mesh has no faces, a position does not fit a float, or the options
+// contradict the fixed unit and axis of a format. Fails (kLimit) if the file would exceed the
+// 32-bit sizes of a format.
 Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
-                                               std::string_view unit = {});
+                                               const ExportOptions& options = {});
+
+struct MeshFile {
+  std::string name;  // without a folder; letters, digits, '.', '-' and '_' of ASCII
+  std::vector<std::uint8_t> bytes;
+};
+
+// Returns `name` with `_` for each byte that MeshFile::name cannot have. Other bytes are special in
+// some mesh files, URLs or archives.
+std::string plain_name(std::string_view name);
+
+// Returns the files of a mesh with a texture instead of vertex colours. The first file is the mesh,
+// STEM.EXTENSION. If the format has companions, the OBJ material library and the pictures follow.
+// All names begin with plain_name(stem); a picture adds `_` and the name that it has in
+// `texturing`.
+//
+// `texturing` has one material, whose maps use the first set of coordinates, and pictures in JPEG
+// or PNG. For GLB, it may have any number of materials, both sets of coordinates (the first one
+// always), and pictures in WebP. The pictures have roles of roles_in(format); PLY and VRML require
+// one of base colours. If the texturing is empty, or the format holds none, returns one file as
+// write_mesh() does. Fails like write_mesh(), and (kBadInput) if the texturing does not fit the
+// mesh or the format.
+Expected<std::vector<MeshFile>> write_textured_mesh(const TriangleMesh& mesh, Texturing texturing,
+                                                    MeshFormat format, std::string_view stem,
+                                                    const ExportOptions& options = {});
 
 // Returns a note for the user if the mesh is far from the origin and the format is STL or DRC. The
-// note says by how much single precision moves the vertices, in the form "CAUSE; NEXT STEP".
+// note has the form "CAUSE; NEXT STEP". It says how far single precision moves the vertices.
 // Returns an empty string for other meshes and formats.
 std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format);
 

@@ -1,19 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "codec/export/file_writer.h"
+#include "codec/export/statements.h"
 #include "codec/export/writers.h"
 
 namespace vitrine::inline codec {
+namespace {
 
-FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit) {
+using Header = std::array<char, 80>;
+
+// Returns the header: unit, axis, title and licence, as far as there is room. It must not start
+// with "solid", which marks text STL. Some programs take "COLOR=" for the start of colours, so no
+// text has an equals sign.
+Header header_of(std::span<const Statement> statements) {
+  std::string text = "Vitrine";
+  for (const auto& [name, value] : statements) {
+    if (name == "unit" || name == "up") text.append(", ").append(name).append(" ").append(value);
+    if (name == "title" || name == "licence") text.append(", ").append(value);
+  }
+  std::ranges::replace(text, '=', ':');
+  Header header{};
+  std::size_t size = std::min(text.size(), header.size());
+  while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80)
+    --size;  // cuts between characters of UTF-8
+  text.copy(header.data(), size);
+  return header;
+}
+
+}  // namespace
+
+FileBytes write_stl(const TriangleMesh& mesh, std::span<const Statement> statements) {
   FileWriter out(84 + mesh.faces.size() * 50);
-  std::array<char, 80> title{};  // must not start with "solid", which marks the text format
-  std::string text = "binary STL written by Vitrine";
-  if (!unit.empty()) text.append(", unit ").append(unit);
-  text.copy(title.data(), title.size());
-  out.put(title);
+  out.put(header_of(statements));
   out.put(static_cast<std::uint32_t>(mesh.faces.size()));
   for (const auto& [a, b, c] : mesh.faces) {
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];

@@ -1,24 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// The writers behind write_mesh(), each in its own file. They require a mesh that write_mesh() has
-// checked.
+// The functions that write_mesh() calls, one per format. The mesh must have passed the checks of
+// write_mesh().
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "codec/core/expected.h"
+#include "codec/export/export_options.h"
+#include "codec/export/statements.h"
+#include "codec/mesh/texturing.h"
 #include "codec/mesh/triangle_mesh.h"
 
 namespace vitrine::inline codec {
 
 using FileBytes = std::vector<std::uint8_t>;
 
-// Each writer returns the bytes of a file. Writers with a parameter `unit` state the unit in a
-// comment unless it is empty.
-FileBytes write_ply(const TriangleMesh& mesh, std::string_view unit);
-FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit);
-FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit);
-FileBytes write_glb(const TriangleMesh& mesh);
-FileBytes write_vrml(const TriangleMesh& mesh);
+// Each function returns the bytes of a file. The file contains `statements` as comments (STL: in
+// its header). `texturing` is either empty or meets the requirements of write_textured_mesh(). The
+// names of its pictures are their file names. `normals` is either empty or has one unit vector per
+// vertex of the mesh.
+FileBytes write_ply(const TriangleMesh& mesh, const Texturing& texturing,
+                    std::span<const Vec3> normals, std::span<const Statement> statements);
+// `library` is the name of the file that write_obj_library() returns.
+FileBytes write_obj(const TriangleMesh& mesh, const Texturing& texturing,
+                    std::span<const Vec3> normals, std::string_view library,
+                    std::span<const Statement> statements);
+FileBytes write_obj_library(const Texturing& texturing);
+FileBytes write_stl(const TriangleMesh& mesh, std::span<const Statement> statements);
+// `options.unit` must be the unit of the file. The error and the grid must be in that unit.
+Expected<FileBytes> write_glb(const TriangleMesh& mesh, const Texturing& texturing,
+                              std::span<const Vec3> normals, const ExportOptions& options);
+FileBytes write_vrml(const TriangleMesh& mesh, const Texturing& texturing,
+                     std::span<const Vec3> normals, std::span<const Statement> statements);
 
 }  // namespace vitrine::inline codec

@@ -52,7 +52,7 @@ fs::path temporary_name(const fs::path& path) {
   return folder_of(path) / fmt::format(".{}.{:016x}.part", path.filename().string(), random());
 }
 
-// Writes all bytes and syncs the file to disk. Returns 0, or the error number (errno).
+// Writes all bytes and syncs the file to disk. Returns 0, or an errno value on failure.
 int write_all(int fd, std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd, bytes.data(), bytes.size());
@@ -106,7 +106,7 @@ Expected<void> write_file_atomically(const fs::path& path, std::span<const std::
 Expected<bool> create_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes) {
   const fs::path temporary = temporary_name(path);
   int error = write_new(temporary, 0444, bytes);
-  // Links instead of renaming, because a link never replaces an existing file.
+  // Creates a hard link instead of renaming, because a link never replaces an existing file.
   if (error == 0 && ::link(temporary.c_str(), path.c_str()) != 0) error = errno;
   ::unlink(temporary.c_str());
   if (error == EEXIST) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes files atomically: a reader sees the complete new file or no change. Each write creates a
-// temporary file in the same folder, syncs it, gives it its final name, and syncs the folder.
-// Functions that fail with kIo fail with kLimit instead if the disk is full.
+// Writes files atomically: a reader sees either the complete new file or no change. Each write
+// creates a temporary file in the same folder, syncs it, gives it its final name, and syncs the
+// folder. If the disk is full, functions fail with kLimit instead of kIo.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,23 @@
 
 namespace vitrine::inline codec {
 
-// Checks that `path` can be written; call it before long work. Fails (kIo) if the folder of `path`
-// is missing or read-only, or if `path` is a folder or a device.
+// Checks that `path` can be written. Call this before long work whose result goes to `path`. Fails
+// (kIo) if the folder of `path` is missing or read-only, or if `path` is a folder or a device.
 Expected<void> check_writable(const std::filesystem::path& path);
 
-// Replaces the contents of the file `path` by `bytes`. On failure (kIo), the temporary file is
-// removed, and the file `path` is unchanged unless only the last sync of the folder failed. The
-// name of the temporary file starts with a dot.
+// Replaces the contents of the file `path` by `bytes`. On failure (kIo), removes the temporary file
+// and leaves `path` unchanged, unless only the final sync of the folder failed. The name of the
+// temporary file starts with a dot.
 Expected<void> write_file_atomically(const std::filesystem::path& path,
                                      std::span<const std::uint8_t> bytes);
 
-// Creates the file `path` with read-only permissions and returns true. If the file exists already,
-// leaves it unchanged and returns false. If several callers create the same file at once, exactly
-// one gets true.
+// Creates the file `path` with read-only permissions and returns true. If the file already exists,
+// leaves it unchanged and returns false. If several callers create the same file at the same time,
+// exactly one of them gets true.
 Expected<bool> create_file_atomically(const std::filesystem::path& path,
                                       std::span<const std::uint8_t> bytes);
 
-// Returns advice for a user whose file or folder cannot be written. `error` is the error number
-// (errno).
+// Returns advice for a user whose file or folder cannot be written. `error` is an errno value.
 const char* next_step(int error);
 
 // Returns the folder of `path`, or "." if `path` is only a file name.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An owning file descriptor, and a guard for the three standard streams.
+// A class that owns a file descriptor, and a function that keeps the three standard streams open.
 #pragma once
 
 #include <fcntl.h>
@@ -30,9 +30,8 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-// Opens /dev/null for each standard stream that is closed. Otherwise the next file opened would get
-// the number of that stream, and messages would be written into that file. Call this first in
-// main().
+// Opens /dev/null for each standard stream that is closed. Otherwise the next opened file would get
+// the stream's number, and messages would be written into that file. Call this first in main().
 inline void keep_standard_streams() {
   int fd = 0;
   while (fd >= 0 && fd <= STDERR_FILENO)

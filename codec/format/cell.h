@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Conversions between lattice positions and the cells of coarse levels. In a level with shift s, a
-// vertex lies in a cell with sides of 2^s lattice units. The mesh stores the middle of that cell in
-// lattice units.
+// cell has sides of 2^s lattice units. A vertex is stored as the middle of its cell, in lattice
+// units.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@ constexpr Vec3i cell_of(const Vec3i& p, std::uint32_t shift) {
   return {p.x >> shift, p.y >> shift, p.z >> shift};
 }
 
-// Returns the middle of the cell, rounded up: if shift > 0, the result is half a unit beyond the
+// Returns the middle of the cell, rounded up. If shift > 0, the result is half a unit above the
 // true middle on each axis.
 constexpr Vec3i middle_of(const Vec3i& cell, std::uint32_t shift) {
   const std::int32_t half = (1 << shift) >> 1;
   return {(cell.x << shift) + half, (cell.y << shift) + half, (cell.z << shift) + half};
 }
 
-// Returns the offset, on each axis, from the stored middle of a cell to the true middle. Vertices
-// are displayed at the true middle, and errors are computed for it.
+// Returns the offset from the stored middle of a cell to its true middle, which is the same on each
+// axis. Vertices are displayed at the true middle, and errors are computed for the true middle.
 constexpr double display_offset(std::uint32_t shift) {
   return shift > 0 ? -0.5 : 0;
 }

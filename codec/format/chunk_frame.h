@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The properties of a chunk that its decoder knows before it reads the chunk.
+// The properties of a chunk that the decoder knows before it reads the chunk.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ inline constexpr std::uint32_t kMostInserted = 64;
 struct ChunkFrame {
   std::uint32_t level = 1;
   std::uint16_t region = 0;
-  std::uint32_t splits = 0, inserted = 0;  // number of splits, number of inserted vertices
+  std::uint32_t splits = 0, inserted = 0;  // numbers of splits and of inserted vertices
   // Lattice shifts of this level and of the previous one.
   std::uint32_t shift = 0, shift_before = 0;
   Placement placement = Placement::kMidpoint;
-  std::int32_t parity = 0;  // see level_parity()
+  std::int32_t parity = 0;  // 0 or 1; see level_parity()
 };
 
 inline Unexpected damaged_chunk(const ChunkFrame& frame, std::string_view what) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertex colours of the hierarchy as integer YCoCg-R triples (Y, Co, Cg). Edge collapses average
-// these triples like positions, so colours of coarse levels may lie outside sRGB. They are clamped
-// only for display.
+// Vertex colours as integer YCoCg-R triples (Y, Co, Cg). Edge collapses average these triples like
+// positions, so colours of coarse levels may lie outside sRGB. They are clamped only for display.
 #pragma once
 
 #include <algorithm>

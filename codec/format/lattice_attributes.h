@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vertex attributes of a hierarchy as integers. Each attribute has its own integer lattice.
-// Edge collapses merge the values and vertex splits separate them, as they do with positions.
+// The vertex attributes of a hierarchy as integer triples. Edge collapses average these triples and
+// vertex splits separate them, as with positions.
 //
 // Colours are YCoCg-R triples (colour.h).
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace vitrine::inline codec {
 
-// One attribute of all vertices. `Values` is std::vector<Vec3i> or Segments<Vec3i>.
+// One attribute for all vertices. `Values` is std::vector<Vec3i> or Segments<Vec3i>.
 template <class Values>
 struct AttributeColumn {
   Semantic semantic{};
@@ -27,10 +27,10 @@ using AttributeColumns = PerSemantic<AttributeColumn<Values>>;
 
 using LatticeAttributes = AttributeColumns<std::vector<Vec3i>>;
 
-// The attributes of one vertex. The i-th value belongs to the i-th column.
+// The attributes of one vertex. Value i belongs to column i.
 using AttributeTuple = std::array<Vec3i, kSemantics>;
 
-// Returns the value of the merged vertex: the mean of both values, rounded down.
+// Returns the attribute value of a merged vertex: the mean of both values, rounded down.
 constexpr Vec3i merge_values(const Vec3i& a, const Vec3i& b) {
   return {(a.x + b.x) >> 1, (a.y + b.y) >> 1, (a.z + b.z) >> 1};
 }
@@ -51,7 +51,7 @@ void add_columns(AttributeColumns<Values>& to, const AttributeColumns<From>& fro
     to[i].semantic = from[i].semantic;
 }
 
-// Whether `columns` holds exactly the attributes `semantics`, each with one value per vertex.
+// Whether `columns` holds exactly the attributes in `semantics`, each with one value per vertex.
 template <class Values>
 bool has_all(const AttributeColumns<Values>& columns, const PerSemantic<Semantic>& semantics,
              std::size_t vertices) {
@@ -68,11 +68,10 @@ void append_row(AttributeColumns<Values>& to, const AttributeColumns<From>& from
     to[i].values.push_back(from[i].values[v]);
 }
 
-// Converts attributes to the lattice without loss: display_attributes() converts them back to the
-// same values.
+// Converts attributes to integers without loss: display_attributes() restores the same values.
 LatticeAttributes lattice_attributes(const VertexAttributes& attributes);
 
-// Appends the values of vertex `v` to `to`, converted for display and export.
+// Converts the values of vertex `v` of `from` for display and export, and appends them to `to`.
 template <class Values>
 void append_displayed(VertexAttributes& to, const AttributeColumns<Values>& from, std::size_t v) {
   for (const auto& [semantic, values] : from) {

@@ -14,25 +14,32 @@ namespace {
 
 constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'P', 'M', 'E', 'S', 'H', 0x0D, 0x0A};
 
-// Feature flags that a reader must support. A reader refuses a file that sets a flag it does not
-// know.
+// Feature flags. A reader refuses a file that sets a flag that the reader does not know.
 constexpr std::uint64_t kFeaturePyramid = 1u << 0;
 constexpr std::uint64_t kFeatureColours = 1u << 1;
 constexpr std::uint64_t kFeatureInsertions = 1u << 2;
-constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours | kFeatureInsertions;
+constexpr std::uint64_t kFeatureTexture = 1u << 3;
+constexpr std::uint64_t kFeatureOptional = 1u << 5;
+constexpr std::uint64_t kKnownFeatures =
+    kFeaturePyramid | kFeatureColours | kFeatureInsertions | kFeatureTexture | kFeatureOptional;
 
-constexpr double kMostStep = 1e30;  // keeps displayed positions in the range of single precision
+constexpr double kMostStep = 1e30;  // keeps displayed positions within the range of floats
 constexpr std::size_t kMaxUnitBytes = 16;
 constexpr std::size_t kHashBytes = 32;
-constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;   // minimum size of a level record
-constexpr std::size_t kChunkBytes = 2 + kHashBytes;  // minimum size of a chunk record
+constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;     // minimum size of a level record
+constexpr std::size_t kChunkBytes = 2 + kHashBytes;    // minimum size of a chunk record
+constexpr std::size_t kPictureBytes = 3 + kHashBytes;  // minimum size of a picture record
+constexpr std::size_t kBlockBytes = 2 + kHashBytes;    // minimum size of an optional block's record
+
+// Properties of a textured surface, as bits of one byte.
+constexpr std::uint8_t kDoubleSided = 1u << 0, kUnlit = 1u << 1;
 
 Unexpected bad(const char* what, std::initializer_list<std::uint64_t> numbers = {}) {
   return fail(ErrorCode::kBadInput,
               join({"damaged .pmesh header: ", fill_in(what, numbers), "; fetch the file again"}));
 }
 
-// Rounds up to single precision, so that an upper bound stays an upper bound.
+// Rounds up to single precision. An upper bound therefore remains an upper bound.
 float round_up(double v) {
   const float f = static_cast<float>(v);
   return static_cast<double>(f) < v ? std::nextafter(f, 3e38f) : f;
@@ -61,7 +68,7 @@ void write_levels(ByteWriter& out, const Manifest& m) {
   }
 }
 
-// Checks that the vertex counts, face counts and lattices of successive levels are consistent.
+// Checks that vertex counts, face counts and lattices are consistent from level to level.
 Expected<void> check_levels(const Manifest& m) {
   const LevelInfo& base = m.levels.front();
   if (base.vertices < 3 || base.faces == 0) {
@@ -73,8 +80,8 @@ Expected<void> check_levels(const Manifest& m) {
     const LevelInfo &fine = m.levels[l], &coarse = m.levels[l - 1];
     if (fine.vertices < coarse.vertices) return bad("levels lose vertices");
     if (fine.shift > coarse.shift) return bad("a finer level has a coarser lattice");
-    // A split adds one vertex and two faces, or one face at a boundary. An inserted component has
-    // at least one face per three vertices.
+    // A split adds one vertex and two faces, or only one face at a boundary. An inserted component
+    // has at least one face per three vertices.
     const std::uint64_t added = fine.vertices - coarse.vertices;
     const std::uint64_t least = m.has_insertions ? (added + 2) / 3 : added;
     if (fine.faces < coarse.faces + least || fine.faces > coarse.faces + 2 * added) {
@@ -179,15 +186,15 @@ bool read_box(ByteReader& in, LatticeBox& box) {
 
 Expected<void> read_regions(ByteReader& in, const Limits& limits, Manifest& m) {
   m.tree.nodes.clear();
-  // `leaves` is 1 plus the number of forks read so far. `missing` is the number of nodes that must
-  // still follow.
+  // `leaves` is 1 + the number of forks read so far. `missing` is the number of nodes still to be
+  // read.
   std::uint64_t leaves = 1, missing = 1;
   while (missing > 0) {
     RegionNode node;
     const std::uint64_t fork = in.varint();
     if (!in.is_ok()) return bad("it ends inside the region tree");
-    // A region cannot fork at level 1, because each vertex's child region is coded after the splits
-    // of the previous level.
+    // A region cannot fork at level 1: the child regions are coded at the end of the previous
+    // level's chunk, and level 0 has no chunks.
     if (fork == 1 || fork > limits.levels) return bad("a region forks at an impossible level");
     node.fork = static_cast<std::uint32_t>(fork);
     if (!read_box(in, node.box)) return bad("impossible box of a region");
@@ -202,6 +209,128 @@ Expected<void> read_regions(ByteReader& in, const Limits& limits, Manifest& m) {
   }
   if (!m.tree.link()) return bad("a region forks before the one that it is part of");
   return read_adjacency(in, m);
+}
+
+void write_texture(ByteWriter& out, const TextureInfo& texture) {
+  if (texture.empty()) return;
+  out.varint(texture.side);
+  out.varint(texture.atlas_length);
+  out.bytes(texture.atlas_sha256);
+  out.u8(static_cast<std::uint8_t>(texture.alpha_mode));
+  write_float(out, static_cast<float>(texture.alpha_cutoff));
+  out.u8((texture.is_double_sided ? kDoubleSided : 0) | (texture.is_unlit ? kUnlit : 0));
+  out.varint(texture.pictures.size());
+  out.varint(texture.in_head);
+  for (const PictureInfo& picture : texture.pictures) {
+    out.u8(static_cast<std::uint8_t>(picture.role));
+    out.varint(picture.side);
+    out.varint(picture.length);
+    out.bytes(picture.sha256);
+  }
+}
+
+// Sets the offsets of the atlas and of the pictures in the head. Returns the end of the head.
+std::uint64_t place_head(Manifest& m) {
+  TextureInfo& texture = m.texture;
+  std::uint64_t offset = m.base_offset + m.base_length;
+  texture.atlas_offset = offset;
+  offset += texture.atlas_length;
+  for (std::uint32_t i = 0; i < texture.in_head; ++i)
+    texture.pictures[i].offset = offset, offset += texture.pictures[i].length;
+  return offset;
+}
+
+// Sets the offsets of the pictures behind the chunks and of the optional blocks, and the size of
+// the file.
+void place_tail(Manifest& m) {
+  for (std::size_t i = m.texture.in_head; i < m.texture.pictures.size(); ++i) {
+    PictureInfo& picture = m.texture.pictures[i];
+    picture.offset = m.file_bytes;
+    m.file_bytes += picture.length;
+  }
+  for (OptionalBlock& block : m.optional_blocks) {
+    block.offset = m.file_bytes;
+    m.file_bytes += block.length;
+  }
+}
+
+bool read_hash(ByteReader& in, Sha256& hash) {
+  const auto digest = in.bytes(kHashBytes);
+  std::copy(digest.begin(), digest.end(), hash.begin());
+  return in.is_ok();
+}
+
+Expected<void> read_picture(ByteReader& in, PictureInfo& picture) {
+  const std::uint8_t role = in.u8();
+  const std::uint64_t side = in.varint();
+  picture.length = in.varint();
+  if (!read_hash(in, picture.sha256) || role >= kPictureRoles || side == 0 ||
+      side > kMaxPictureSide || picture.length > (1ull << 40)) {
+    return bad("impossible picture of a texture");
+  }
+  picture.role = static_cast<PictureRole>(role);
+  picture.side = static_cast<std::uint32_t>(side);
+  return {};
+}
+
+Expected<void> read_texture(ByteReader& in, TextureInfo& texture) {
+  const std::uint64_t side = in.varint();
+  texture.atlas_length = in.varint();
+  const bool has_hash = read_hash(in, texture.atlas_sha256);
+  const std::uint8_t alpha_mode = in.u8();
+  texture.alpha_cutoff = read_float(in);
+  const std::uint8_t properties = in.u8();
+  const std::uint64_t count = in.varint(), in_head = in.varint();
+  if (!has_hash || side == 0 || side > kMaxAtlasSide || texture.atlas_length > (1ull << 40)) {
+    return bad("impossible atlas of a texture");
+  }
+  if (alpha_mode > static_cast<std::uint8_t>(AlphaMode::kBlend) ||
+      !(texture.alpha_cutoff >= 0 && texture.alpha_cutoff <= 1) ||
+      properties > (kDoubleSided | kUnlit)) {
+    return bad("impossible properties of a textured surface");
+  }
+  if (!in.is_ok() || count > kMaxPictures || in_head > count || in_head > kPictureRoles ||
+      count > in.left() / kPictureBytes) {
+    return bad("impossible number of pictures ({})", {count});
+  }
+  texture.side = static_cast<std::uint32_t>(side);
+  texture.alpha_mode = static_cast<AlphaMode>(alpha_mode);
+  texture.is_double_sided = (properties & kDoubleSided) != 0;
+  texture.is_unlit = (properties & kUnlit) != 0;
+  texture.in_head = static_cast<std::uint32_t>(in_head);
+  texture.pictures.resize(count);
+  for (PictureInfo& picture : texture.pictures) {
+    if (auto ok = read_picture(in, picture); !ok) return ok;
+  }
+  const auto head = std::span(texture.pictures).first(in_head);
+  const auto is_large = [](const PictureInfo& p) { return p.side > kMaxHeadPictureSide; };
+  if (std::any_of(head.begin(), head.end(), is_large))
+    return bad("a picture of the head is too large");
+  return {};
+}
+
+void write_optional_blocks(ByteWriter& out, const Manifest& m) {
+  if (m.optional_blocks.empty()) return;
+  out.varint(m.optional_blocks.size());
+  for (const OptionalBlock& block : m.optional_blocks) {
+    out.varint(block.kind);
+    out.varint(block.length);
+    out.bytes(block.sha256);
+  }
+}
+
+Expected<void> read_optional_blocks(ByteReader& in, Manifest& m) {
+  const std::uint64_t count = in.varint();
+  if (count == 0 || count > kMaxOptionalBlocks || count > in.left() / kBlockBytes)
+    return bad("impossible number of optional blocks ({})", {count});
+  m.optional_blocks.resize(count);
+  for (OptionalBlock& block : m.optional_blocks) {
+    block.kind = in.varint();
+    block.length = in.varint();
+    if (!read_hash(in, block.sha256) || block.length > (1ull << 40))
+      return bad("impossible optional block");
+  }
+  return {};
 }
 
 void write_chunks(ByteWriter& out, const Manifest& m) {
@@ -244,10 +373,11 @@ Expected<void> read_level_chunks(ByteReader& in, std::uint32_t level, Manifest& 
 }
 
 Expected<void> read_chunks(ByteReader& in, Manifest& m) {
-  m.file_bytes = m.head_bytes();
+  m.file_bytes = place_head(m);
   for (std::uint32_t level = 1; level < m.levels.size(); ++level) {
     if (auto ok = read_level_chunks(in, level, m); !ok) return ok;
   }
+  place_tail(m);
   return {};
 }
 
@@ -287,27 +417,53 @@ Expected<void> read_frame(ByteReader& in, const Limits& limits, Manifest& m) {
   return {};
 }
 
-Expected<void> read_body(ByteReader& in, const Limits& limits, Manifest& m) {
+Expected<void> read_body(ByteReader& in, const Limits& limits, std::uint64_t features,
+                         Manifest& m) {
   if (auto ok = read_frame(in, limits, m); !ok) return ok;
   if (auto ok = read_levels(in, limits, m); !ok) return ok;
   if (auto ok = read_regions(in, limits, m); !ok) return ok;
   m.base_length = in.varint();
-  const auto digest = in.bytes(kHashBytes);
-  if (!in.is_ok() || m.base_length > (1ull << 40))
+  if (!read_hash(in, m.base_sha256) || m.base_length > (1ull << 40))
     return bad("it ends before the base mesh's record");
-  std::copy(digest.begin(), digest.end(), m.base_sha256.begin());
+  if ((features & kFeatureTexture) != 0) {
+    if (auto ok = read_texture(in, m.texture); !ok) return ok;
+  }
+  if ((features & kFeatureOptional) != 0) {
+    if (auto ok = read_optional_blocks(in, m); !ok) return ok;
+  }
   if (auto ok = read_chunks(in, m); !ok) return ok;
   if (!in.is_ok()) return bad("it ends early");
   return {};
 }
 
-// Whether the last 32 bytes of the header are the SHA-256 of the bytes before them.
+// Whether the last 32 bytes of the header are the SHA-256 of all header bytes before them.
 bool is_sealed(std::span<const std::uint8_t> header) {
   const Sha256 hash = sha256(header.first(header.size() - kHashBytes));
   return std::equal(hash.begin(), hash.end(), header.last(kHashBytes).begin());
 }
 
 }  // namespace
+
+std::uint64_t TextureInfo::bytes() const {
+  std::uint64_t bytes = atlas_length;
+  for (const PictureInfo& picture : pictures)
+    bytes += picture.length;
+  return bytes;
+}
+
+std::uint64_t Manifest::optional_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const OptionalBlock& block : optional_blocks)
+    bytes += block.length;
+  return bytes;
+}
+
+std::uint64_t Manifest::head_bytes() const {
+  std::uint64_t bytes = base_offset + base_length + texture.atlas_length;
+  for (std::uint32_t i = 0; i < texture.in_head; ++i)
+    bytes += texture.pictures[i].length;
+  return bytes;
+}
 
 std::uint64_t Manifest::cumulative_bytes(std::uint32_t level) const {
   std::uint64_t bytes = head_bytes();
@@ -328,13 +484,13 @@ std::size_t Manifest::find_chunk(std::uint32_t level, std::uint32_t leaf) const 
   return static_cast<std::size_t>(std::prev(behind) - chunks.begin());
 }
 
-// The prefix consists of the signature (8 bytes), the major version (2), the minor version (2) and
-// the header length (4). The feature flags and the body follow.
+// `prefix` holds the signature (8 bytes), the major version (2), the minor version (2) and the
+// header length (4).
 Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) {
   ByteReader in(prefix);
   const auto magic = in.bytes(kMagic.size());
   const std::uint16_t major = in.u16();
-  in.u16();  // skips the minor version: this reader can decode every minor version
+  in.u16();  // the minor version; a reader accepts all minor versions
   const std::uint64_t length = in.u32();
   if (!in.is_ok() || !std::equal(magic.begin(), magic.end(), kMagic.begin())) {
     return fail(ErrorCode::kBadInput,
@@ -371,7 +527,12 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limit
   if ((features & kFeatureColours) != 0) m.attributes.push_back(Semantic::kColour);
   m.has_insertions = (features & kFeatureInsertions) != 0;
   m.base_offset = *length;
-  if (auto ok = read_body(in, limits, m); !ok) return tl::unexpected(std::move(ok.error()));
+  const bool is_textured = (features & kFeatureTexture) != 0;
+  if (is_textured && m.has_insertions) {
+    return bad("a textured model inserts components, which have no texture coordinates");
+  }
+  if (auto ok = read_body(in, limits, features, m); !ok)
+    return tl::unexpected(std::move(ok.error()));
   if (in.left() != 0) return bad("it holds bytes that belong to nothing");
   return m;
 }
@@ -385,12 +546,16 @@ std::vector<std::uint8_t> write_header(Manifest& m) {
   ByteWriter body;
   body.varint((m.placement == Placement::kPyramid ? kFeaturePyramid : 0) |
               (m.has(Semantic::kColour) ? kFeatureColours : 0) |
-              (m.has_insertions ? kFeatureInsertions : 0));
+              (m.has_insertions ? kFeatureInsertions : 0) |
+              (m.texture.empty() ? 0 : kFeatureTexture) |
+              (m.optional_blocks.empty() ? 0 : kFeatureOptional));
   write_frame(body, m);
   write_levels(body, m);
   write_regions(body, m);
   body.varint(m.base_length);
   body.bytes(m.base_sha256);
+  write_texture(body, m.texture);
+  write_optional_blocks(body, m);
   write_chunks(body, m);
 
   ByteWriter out;
@@ -404,10 +569,10 @@ std::vector<std::uint8_t> write_header(Manifest& m) {
   header.insert(header.end(), hash.begin(), hash.end());
 
   m.base_offset = header.size();
-  std::uint64_t offset = m.base_offset + m.base_length;
+  m.file_bytes = place_head(m);
   for (ChunkInfo& chunk : m.chunks)
-    chunk.offset = offset, offset += chunk.length;
-  m.file_bytes = offset;
+    chunk.offset = m.file_bytes, m.file_bytes += chunk.length;
+  place_tail(m);
   return header;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of regions into which a model divides as it gets finer. The root is the whole model.
-// From level `fork` on, a node is replaced by its two children. The regions of a level are the
-// nodes that have not forked by that level but whose parents have. Leaves are numbered from left to
-// right. A node covers a range of leaves; a region is identified by its first leaf.
+// The tree of regions. A model divides into more regions as its levels get finer. The root is the
+// whole model. From level `fork` on, a node's two children replace the node. The regions of a level
+// are the nodes that have not forked yet but whose parents have. Leaves are numbered from left to
+// right. A node covers a range of leaves. A region is identified by its first leaf.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +21,12 @@ struct RegionPlane {
   bool is_beyond(const Vec3i& p) const { return (axis == 0 ? p.x : axis == 1 ? p.y : p.z) >= at; }
 };
 
-// An axis-aligned box in lattice units. Both corners belong to it.
+// An axis-aligned box in lattice units. It includes both corners.
 struct LatticeBox {
   Vec3i low, high;
 
   bool operator==(const LatticeBox&) const = default;
-  // Returns an empty box, to which others can be added.
+  // Returns an empty box, to which points and boxes can be added.
   static constexpr LatticeBox none() {
     constexpr std::int32_t kFar = 1 << 18;
     return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
@@ -42,13 +42,13 @@ struct LatticeBox {
 };
 
 struct RegionNode {
-  std::uint32_t fork = 0;  // first level in which the children replace the node; 0 for a leaf
-  RegionPlane plane;  // the plane that divides the vertices between the children; unused in a leaf
-  LatticeBox box;     // bounds all faces at the region's vertices, in all levels
+  std::uint32_t fork = 0;  // first level in which the children replace this node; 0 for a leaf
+  RegionPlane plane;       // divides the vertices between the children; unused in a leaf
+  LatticeBox box;          // contains all faces at the region's vertices, in all levels
 
-  // RegionTree::link() computes the members below.
-  std::uint32_t second = 0;  // index of the second child; the first child follows the node
-  std::uint32_t first = 0, leaves = 1;  // the first leaf under this node, and the number of leaves
+  // RegionTree::link() sets the members below.
+  std::uint32_t second = 0;  // index of the second child; the first child is the next node
+  std::uint32_t first = 0, leaves = 1;  // first leaf under this node, and number of leaves
 
   bool forks_by(std::uint32_t level) const { return fork != 0 && fork <= level; }
 };
@@ -58,11 +58,11 @@ struct RegionTree {
 
   std::uint32_t leaves() const { return nodes[0].leaves; }
 
-  // Computes `second`, `first` and `leaves` of each node from the fork levels. Returns false unless
-  // the nodes form exactly one tree and no child forks at a coarser level than its parent.
+  // Computes `second`, `first` and `leaves` of each node from the fork levels. Returns false if the
+  // nodes do not form exactly one tree, or if a child forks at a coarser level than its parent.
   bool link();
 
-  // Returns the nodes that are the regions of `level`, from left to right.
+  // Returns the nodes that are regions in `level`, from left to right.
   std::vector<std::uint32_t> regions_at(std::uint32_t level) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An affine map of space: p -> x p.x + y p.y + z p.z + origin.
+// An affine map: p -> p.x * x + p.y * y + p.z * z + origin.
 #pragma once
 
 #include <array>

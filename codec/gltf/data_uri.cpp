@@ -9,8 +9,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Decodes base64, or returns nullopt if the text is invalid. OpenSSL decodes padding at any
-// position as zeros and keeps these zeros, so padding is checked and removed here.
+// Decodes base64. Returns nullopt if the text is invalid. Padding is checked and removed here,
+// because OpenSSL accepts padding at any position and decodes it as zeros.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   const std::size_t digits = std::min(text.find('='), text.size());
   const std::size_t padding = text.size() - digits;

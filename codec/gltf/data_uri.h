@@ -13,8 +13,8 @@ inline bool is_data_uri(std::string_view uri) {
   return uri.starts_with("data:");
 }
 
-// Decodes a base64 data: URI [RFC2397] [RFC4648]. Returns nullopt for any other URI. The result has
-// fewer bytes than the URI has characters.
+// Decodes a base64 data: URI [RFC2397] [RFC4648]. Returns nullopt for any other URI. The number of
+// decoded bytes is smaller than the number of characters in `uri`.
 std::optional<std::vector<std::uint8_t>> data_in_uri(std::string_view uri);
 
 }  // namespace vitrine::inline codec

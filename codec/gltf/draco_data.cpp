@@ -18,8 +18,8 @@ Unexpected bad(const std::string& what) {
   return bad_input("the Draco data " + what + "; the file is damaged, export it again");
 }
 
-// Reads a number with seven bits per byte, lowest bits first. The highest bit of a byte is set if
-// more bytes follow.
+// Reads an integer of seven bits per byte, lowest bits first. The highest bit of a byte says
+// whether more bytes follow.
 std::uint32_t varint(ByteReader& in) {
   std::uint64_t value = 0;
   for (int shift = 0; shift < 35; shift += 7) {
@@ -30,9 +30,9 @@ std::uint32_t varint(ByteReader& in) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(value, 0xFFFF'FFFF));
 }
 
-// A Draco header has "DRACO" in bytes 0-4, the version in 5-6, the geometry type in 7 (1: mesh),
-// the method in 8 (1: edgebreaker) and flags in 9-10. The counts of the connectivity follow:
-// vertices and faces, in an order that depends on the method.
+// Checks the start of a Draco buffer. Bytes 0-4 are "DRACO", 5-6 the version, 7 the geometry type
+// (1: mesh), 8 the method (1: edgebreaker) and 9-10 flags. The counts of vertices and faces follow,
+// in an order that depends on the method.
 Expected<void> check_header(std::span<const std::uint8_t> bytes, const Limits& limits) {
   constexpr std::uint8_t kName[] = {'D', 'R', 'A', 'C', 'O'};
   if (bytes.size() < 16 || !std::equal(std::begin(kName), std::end(kName), bytes.begin()) ||

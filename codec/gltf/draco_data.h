@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes meshes from Draco buffers: .drc files and compressed primitives of GLB files.
+// Decodes meshes from Draco buffers, which occur in .drc files and in compressed primitives of
+// glTF.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ class Mesh;
 
 namespace vitrine::inline codec {
 
-// Decodes a Draco buffer. First checks the counts in the Draco header against the limits and the
-// size of the data (at most 1024 faces per byte). Draco itself is not safe on hostile bytes, so
+// Decodes a Draco buffer. First checks the counts in the Draco header against `limits` and against
+// the size of the data (at most 1024 faces per byte). Draco itself is not safe on hostile bytes:
 // call this in the sandbox. Fails (kBadInput, kUnsupported, kLimit).
 Expected<std::unique_ptr<draco::Mesh>> decode_draco_data(std::span<const std::uint8_t> bytes,
                                                          const Limits& limits);

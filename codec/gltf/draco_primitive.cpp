@@ -52,7 +52,8 @@ bool copy_values(const draco::PointAttribute& attribute, std::uint32_t points,
 }
 
 bool is_wanted(std::string_view name) {
-  return name == "POSITION" || name == "COLOR_0" || name.starts_with("TEXCOORD_");
+  return name == "POSITION" || name == "COLOR_0" || name.starts_with("TEXCOORD_") ||
+         name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
 }
 
 Expected<void> read_values(const draco::Mesh& mesh, const Json& document, const Json& primitive,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The container of binary glTF 2.0: a JSON document and a chunk of binary data.
+// Splits a binary glTF 2.0 file (GLB) into its JSON document and its binary data.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace vitrine::inline codec {
 
-// Parts of the input. Each may be empty.
+// Parts of the GLB file. Each may be empty.
 struct GlbChunks {
   std::string_view json;
   std::span<const std::uint8_t> binary;
 };
 
-// Finds the chunks of a GLB file. Fails (kBadInput, kUnsupported) if the version of the container
-// is not supported or a chunk is cut short.
+// Finds the chunks of a GLB file. Fails (kBadInput, kUnsupported) if the container's version is not
+// supported or a chunk is truncated.
 Expected<GlbChunks> split_glb(std::span<const std::uint8_t> bytes);
 
 }  // namespace vitrine::inline codec

@@ -3,10 +3,21 @@
 
 #include <algorithm>
 
+#include "codec/gltf/gltf_surface.h"
 #include "codec/picture/decode_picture.h"
 #include "codec/picture/sample.h"
 
 namespace vitrine::inline codec {
+
+namespace {
+
+// Returns the colour of light. Light that is brighter than a picture can show keeps its hue.
+LinearColour shown(const Vec3& emission) {
+  const double most = std::max({1.0, emission.x, emission.y, emission.z});
+  return {emission.x / most, emission.y / most, emission.z / most};
+}
+
+}  // namespace
 
 LinearColour BaseColour::at(double u, double v) const {
   if (picture == nullptr) return factor;
@@ -16,10 +27,12 @@ LinearColour BaseColour::at(double u, double v) const {
 
 BaseColour GltfBaseColours::of(const Json& primitive) {
   const Json& material = element(document_, "materials", whole(primitive, "material", kAbsent));
-  const Json& surface = member(material, "pbrMetallicRoughness");
-  const auto factor = numbers<4>(member(surface, "baseColorFactor"), {1, 1, 1, 1});
-  BaseColour out{.factor = {factor[0], factor[1], factor[2]}};
-  const auto texture = read_texture(document_, member(surface, "baseColorTexture"));
+  const GltfSurface surface = surface_of(material);
+  const auto& [r, g, b, opacity] = surface.colour;
+  const bool emits = surface.only_emits();
+  BaseColour out{.factor = emits ? shown(surface.emission) : LinearColour{r, g, b}};
+  const auto texture =
+      read_texture(document_, emits ? surface.emission_texture : surface.colour_texture);
   if (!texture) return out;
   out.texture = *texture;
   out.picture = picture(texture->image);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base colours of glTF materials, for vertex colours. Each is a factor, optionally multiplied
-// by a texture.
+// The base colours of glTF materials, from which vertex colours are computed. A base colour is a
+// constant factor, multiplied by a texture if there is one. If a material only emits light, its
+// emission serves as base colour.
 #pragma once
 
 #include <map>
@@ -16,22 +17,23 @@ namespace vitrine::inline codec {
 
 struct BaseColour {
   LinearColour factor{1, 1, 1};
-  const Picture* picture = nullptr;  // null if there is only the factor
-  GltfTexture texture;               // the use of the picture
+  const Picture* picture = nullptr;  // null if the base colour has no texture
+  GltfTexture texture;               // how the material uses the picture
 
   bool is_white() const { return picture == nullptr && factor == LinearColour{1, 1, 1}; }
-  LinearColour at(double u, double v) const;  // (u, v): texture coordinates as in the file
+  LinearColour at(double u, double v) const;  // (u, v): texture coordinates as stored in the file
 };
 
 class GltfBaseColours {
  public:
-  // The references must outlive this object. Decodes at most `most_pixels` pixels. Pictures that
-  // cannot be decoded count as well: with their pixels, and one pixel per byte for the search.
+  // The references must outlive this object. `most_pixels` is the maximum number of pixels to
+  // decode. A picture that fails to decode also counts, with its pixels plus one pixel for each
+  // byte of its file.
   GltfBaseColours(const Json& document, GltfPictures& pictures, std::uint64_t most_pixels)
       : document_(document), pictures_(pictures), pixels_left_(most_pixels) {}
 
   // Returns the base colour of the primitive's material. The colour's picture lives as long as this
-  // object. A picture that cannot be decoded is refused.
+  // object. If a picture cannot be decoded, passes the fault to GltfPictures::refuse().
   BaseColour of(const Json& primitive);
 
   // Returns the number of pictures that were decoded.
@@ -41,7 +43,8 @@ class GltfBaseColours {
   using Place = std::pair<const std::uint8_t*, std::size_t>;
 
   const Picture* picture(std::uint64_t index);
-  // Returns the picture of an image, decoded once for all images with the same bytes.
+  // Returns the picture of an image. If several images have the same bytes, they are decoded only
+  // once.
   Expected<const Picture*> find(std::uint64_t index);
   Expected<Picture> decode(std::span<const std::uint8_t> bytes);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/gltf/gltf_buffer.h"
 
+#include <algorithm>
+
 #include "codec/gltf/meshopt_view.h"
 #include "codec/repair/raw_mesh.h"
 
@@ -8,6 +10,8 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint64_t kMostExpansionInAll = 1024;
+// Padding at the end of a buffer that some exporters count but do not write.
+constexpr std::uint64_t kMostPadding = 3;
 
 std::string named(std::uint64_t index, const std::string& what) {
   return "glTF buffer view " + std::to_string(index) + ' ' + what +
@@ -39,10 +43,12 @@ Expected<std::span<const std::uint8_t>> GltfBuffer::part(const Json& place, std:
   const auto bytes = has_uri ? buffer(number) : Expected<std::span<const std::uint8_t>>(binary_);
   if (!bytes) return tl::unexpected(bytes.error());
   const std::uint64_t begin = whole(place, "byteOffset", 0), size = whole(place, "byteLength", 0);
-  if (begin > bytes->size() || size > bytes->size() - begin) {
+  if (begin > bytes->size() || size > bytes->size() - begin + kMostPadding) {
     return bad_view(index, "lies beyond the end of its buffer");
   }
-  return bytes->subspan(begin, size);
+  const std::uint64_t present = std::min<std::uint64_t>(size, bytes->size() - begin);
+  if (present < size) clipped_.insert(index);
+  return bytes->subspan(begin, present);
 }
 
 // Returns the bytes of a buffer that has a URI.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns the buffer views of a glTF file and decompresses them if necessary.
+// Provides the buffer views of a glTF file, decompressed if necessary.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -14,25 +15,28 @@ namespace vitrine::inline codec {
 
 struct BufferView {
   std::span<const std::uint8_t> bytes;
-  std::uint64_t stride = 0;  // bytes from one element to the next; 0 if there are no gaps
+  std::uint64_t stride = 0;  // bytes from one element to the next; 0 if they are contiguous
 };
 
 class GltfBuffer {
  public:
-  // `binary` is the binary chunk of a GLB file; it is buffer 0 if that has no URI. All arguments
-  // must outlive this object.
+  // `binary` is the binary chunk of a GLB file. It serves as buffer 0 if buffer 0 has no URI. All
+  // arguments must outlive this object.
   GltfBuffer(const Json& document, std::span<const std::uint8_t> binary, GltfResources& resources)
       : document_(document), binary_(binary), resources_(resources) {}
 
-  // Returns buffer view `index`. Fails unless it lies within its buffer. The bytes live as long as
-  // this object.
+  // Returns the buffer view number `index`. Fails if the view extends beyond its buffer by more
+  // than 3 bytes. The bytes live as long as this object.
   Expected<BufferView> view(std::uint64_t index);
 
-  // Adds `bytes` to the total of decompressed bytes. Fails (kLimit) if the total exceeds 1024 times
-  // the size of the file and its companions.
+  // Adds `bytes` to the total size of decompressed data. Fails (kLimit) if the total exceeds 1024
+  // times the size of the file and its companions.
   Expected<void> spend(std::uint64_t bytes);
 
-  // Returns the size of the file, its companions and the decompressed data.
+  // Returns the number of views that extended beyond their buffer, by missing padding.
+  std::uint64_t clipped() const { return clipped_.size(); }
+
+  // Returns the total size in bytes of the file, its companions and the decompressed data.
   std::uint64_t bytes() const { return resources_.bytes() + spent_; }
 
  private:
@@ -43,10 +47,12 @@ class GltfBuffer {
   const Json& document_;
   std::span<const std::uint8_t> binary_;
   GltfResources& resources_;
-  // opened by URI; an error is kept as well, so that each URI is looked up only once
+  // Key: index of a buffer with a URI. Errors are kept as well, so that each URI is looked up only
+  // once.
   std::map<std::uint64_t, Expected<std::span<const std::uint8_t>>> buffers_;
-  // key: index of the buffer view
+  // key: index of the compressed buffer view
   std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;
+  std::set<std::uint64_t> clipped_;  // indices of buffer views
   std::uint64_t spent_ = 0;
 };
 

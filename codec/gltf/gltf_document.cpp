@@ -10,11 +10,12 @@ namespace {
 constexpr int kDeepestJson = 64;
 
 struct JsonSize {
-  std::uint64_t bytes = 0;  // without the contents of data: URIs
+  std::uint64_t bytes = 0;  // size of the JSON without the contents of data: URIs
   int depth = 0;
 };
 
-// Returns the position of the quotation mark that ends the string whose contents start at `begin`.
+// Returns the position of the quotation mark that ends the string. `begin` is the position of the
+// string's first character.
 std::size_t end_of_string(std::string_view json, std::size_t begin) {
   std::size_t at = begin;
   while (at < json.size() && json[at] != '"')
@@ -37,12 +38,13 @@ JsonSize size_of(std::string_view json) {
   return size;
 }
 
-// Whether a required extension can be handled. Materials and textures that are not supported are
-// ignored and reported. All other extensions must be supported.
+// Whether the reader handles a required extension. Unknown extensions for materials and textures
+// are ignored and reported. Every other required extension must be known.
 bool is_read(std::string_view extension) {
   return extension == "KHR_mesh_quantization" || extension == "KHR_draco_mesh_compression" ||
-         extension == "EXT_meshopt_compression" || extension.starts_with("KHR_materials_") ||
-         extension.starts_with("KHR_texture_") || extension.starts_with("EXT_texture_");
+         extension == "EXT_meshopt_compression" || extension == "EXT_mesh_gpu_instancing" ||
+         extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
+         extension.starts_with("EXT_texture_");
 }
 
 Expected<void> check_extensions(const Json& document) {
@@ -55,9 +57,8 @@ Expected<void> check_extensions(const Json& document) {
   return {};
 }
 
-// Applies glTF's version rules. If the document states minVersion, that version must be fully
-// supported. Otherwise the major version must be supported. If the document states neither, only
-// the version of the container is checked.
+// Applies glTF's version rules. If the document states minVersion, it must be 2.0. Otherwise
+// `version` must be 2.x. If both are missing, the version of the container is enough.
 Expected<void> check_version(const Json& document) {
   const Json& asset = member(document, "asset");
   const bool has_least = !member(asset, "minVersion").is_null();

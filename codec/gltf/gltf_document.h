@@ -10,12 +10,14 @@
 
 namespace vitrine::inline codec {
 
-// Returns the document, which is a JSON object. Fails (kBadInput, kUnsupported, kLimit) if it is
-// not JSON, if it is nested too deeply or has more than `limits.header_bytes` bytes apart from its
-// data: URIs, or if its version or a required extension is not supported.
+// Returns the JSON document, which is an object. Fails (kBadInput, kUnsupported, kLimit) in these
+// cases:
+// - The text is not JSON or is nested too deeply.
+// - The text has more than `limits.header_bytes` bytes apart from its data: URIs.
+// - The version or a required extension is not supported.
 Expected<Json> parse_gltf(std::string_view json, const Limits& limits);
 
-// Returns an error that states a fault of the file and advises the user.
+// Returns an error that states the fault `what` and advises the user what to do.
 Unexpected bad_gltf(std::string what);
 
 }  // namespace vitrine::inline codec

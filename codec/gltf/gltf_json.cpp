@@ -2,6 +2,7 @@
 #include "codec/gltf/gltf_json.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vitrine::inline codec {
 namespace {
@@ -27,7 +28,11 @@ const Json& extension(const Json& object, std::string_view name) {
 
 std::uint64_t whole(const Json& object, std::string_view key, std::uint64_t otherwise) {
   const Json& value = member(object, key);
-  return value.is_number_unsigned() ? value.get<std::uint64_t>() : otherwise;
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+  constexpr double kMost = 1ULL << 53;
+  const double real = value.is_number_float() ? value.get<double>() : -1;
+  const bool is_whole = real >= 0 && real <= kMost && real == std::floor(real);
+  return is_whole ? static_cast<std::uint64_t>(real) : otherwise;
 }
 
 double real(const Json& object, std::string_view key, double otherwise) {

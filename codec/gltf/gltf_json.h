@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads glTF's JSON without exceptions, even if the document has unexpected contents.
+// Reads the JSON of glTF files. Unexpected contents never throw an exception.
 #pragma once
 
 #include <array>
@@ -17,13 +17,14 @@ using Json = nlohmann::json;
 // Returns the member `key`, or null if `object` is not an object or has no such member.
 const Json& member(const Json& object, std::string_view key);
 
-// Returns element `index` of the document's array `key`, or null if there is none.
+// Returns element `index` of the document's array `key`, or null if it does not exist.
 const Json& element(const Json& document, std::string_view key, std::uint64_t index);
 
-// Returns the JSON object of the extension `name`, or null if there is none.
+// Returns the JSON object of the extension `name` in `object`, or null if there is none.
 const Json& extension(const Json& object, std::string_view name);
 
-// Returns the member `key` if it is a non-negative integer, or `otherwise` in all other cases.
+// Returns the member `key` if it is a non-negative integer, which may be written as 3.0; otherwise
+// returns `otherwise`.
 std::uint64_t whole(const Json& object, std::string_view key, std::uint64_t otherwise);
 
 inline constexpr std::uint64_t kAbsent = ~std::uint64_t{0};
@@ -34,7 +35,8 @@ std::string text(const Json& object, std::string_view key, std::string_view othe
 // Whether `array` is a JSON array of exactly `count` numbers.
 bool are_numbers(const Json& array, std::size_t count);
 
-// Returns the numbers of an array of exactly N numbers, or `otherwise` for anything else.
+// Returns the numbers of `array` if it consists of exactly N numbers; otherwise returns
+// `otherwise`.
 template <std::size_t N>
 std::array<double, N> numbers(const Json& array, const std::array<double, N>& otherwise) {
   if (!are_numbers(array, N)) return otherwise;

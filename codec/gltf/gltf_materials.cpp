@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "codec/gltf/gltf_surface.h"
 #include "codec/gltf/gltf_texture.h"
 #include "codec/mesh/plain_material.h"
 
@@ -10,7 +11,6 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kMostMaterials = 0x10000;
-constexpr double kMostEmissive = 1e6;
 
 double factor(const Json& object, std::string_view key, double otherwise) {
   return std::clamp(real(object, key, otherwise), 0.0, 1.0);
@@ -21,14 +21,6 @@ AlphaMode alpha_mode_of(const Json& self) {
   return mode == "MASK"    ? AlphaMode::kMask
          : mode == "BLEND" ? AlphaMode::kBlend
                            : AlphaMode::kOpaque;
-}
-
-Vec3 emission_of(const Json& self) {
-  const auto colour = numbers<3>(member(self, "emissiveFactor"), {0, 0, 0});
-  const double strength =
-      real(extension(self, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
-  const auto part = [&](double value) { return std::clamp(value * strength, 0.0, kMostEmissive); };
-  return {part(colour[0]), part(colour[1]), part(colour[2])};
 }
 
 bool is_set(const Json& self, std::string_view key) {
@@ -50,22 +42,20 @@ std::uint16_t GltfMaterials::index_of(const Json& primitive) {
 }
 
 Material GltfMaterials::read(const Json& self) {
-  const Json& surface = member(self, "pbrMetallicRoughness");
+  const GltfSurface surface = surface_of(self);
   const Json &normal = member(self, "normalTexture"), &occlusion = member(self, "occlusionTexture");
   Material out{.name = text(self, "name", "")};
-  out.base_colour = numbers<4>(member(surface, "baseColorFactor"), {1, 1, 1, 1});
-  for (double& part : out.base_colour)
-    part = std::clamp(part, 0.0, 1.0);
-  out.metallic = factor(surface, "metallicFactor", 1);
-  out.roughness = factor(surface, "roughnessFactor", 1);
+  out.base_colour = surface.colour;
+  out.metallic = surface.metallic;
+  out.roughness = surface.roughness;
   out.normal_scale = real(normal, "scale", 1);
   out.occlusion_strength = factor(occlusion, "strength", 1);
-  out.emission = emission_of(self);
-  out.base_colour_map = map(member(surface, "baseColorTexture"));
+  out.emission = surface.emission;
+  out.base_colour_map = map(surface.colour_texture);
   out.normal_map = map(normal);
-  out.metallic_roughness_map = map(member(surface, "metallicRoughnessTexture"));
+  out.metallic_roughness_map = map(surface.metallic_roughness_texture);
   out.occlusion_map = map(occlusion);
-  out.emission_map = map(member(self, "emissiveTexture"));
+  out.emission_map = map(surface.emission_texture);
   out.alpha_mode = alpha_mode_of(self);
   out.alpha_cutoff = factor(self, "alphaCutoff", 0.5);
   out.is_double_sided = is_set(self, "doubleSided");
@@ -104,7 +94,9 @@ void GltfMaterials::note_extensions(const Json& self) {
   const Json& extensions = member(self, "extensions");
   if (!extensions.is_object()) return;
   for (const auto& [name, value] : extensions.items()) {
-    if (name != "KHR_materials_unlit" && name != "KHR_materials_emissive_strength")
+    if (name == kSpecularGlossiness)
+      ++glossy_materials_;
+    else if (name != "KHR_materials_unlit" && name != "KHR_materials_emissive_strength")
       unread_extensions_.insert(name);
   }
 }
@@ -126,6 +118,11 @@ std::vector<std::string> GltfMaterials::report() const {
     }
     lines.push_back(counted(unread_extensions_.size(), "material extension") +
                     " not carried: " + names + "; bake them into the base colour map");
+  }
+  if (glossy_materials_ > 0) {
+    lines.push_back("the specular colours of " + counted(glossy_materials_, "material") +
+                    " not carried: only the diffuse colours are; convert the materials to "
+                    "metallic-roughness");
   }
   if (maps_beyond_sets_ > 0) {
     lines.push_back(counted(maps_beyond_sets_, "use") +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of a glTF document with their maps, as a mesh carries them.
+// The materials of a glTF document and their texture maps, in the form in which a mesh stores them.
 #pragma once
 
 #include <cstdint>
@@ -23,22 +23,23 @@ class GltfMaterials {
                 const Limits& limits)
       : document_(document), pictures_(pictures), buffer_(buffer), limits_(limits) {}
 
-  // Returns the index of the primitive's material among those that were read. A map whose picture
-  // cannot be carried is left out, and its picture is refused.
+  // Returns the index of the primitive's material among the materials read. If a map's picture
+  // cannot be kept, the map is left out, and the fault goes to GltfPictures::refuse().
   std::uint16_t index_of(const Json& primitive);
 
   const Material& operator[](std::uint16_t index) const { return materials_[index]; }
 
-  // Moves the materials and pictures to the mesh, unless all materials are plain.
+  // Moves the materials and pictures to the mesh. Drops them if all materials are plain.
   void give_to(RawMesh& mesh);
 
-  // Reports properties of the materials that are not carried, one line for each kind.
+  // Returns one line for each kind of material property that is not kept.
   std::vector<std::string> report() const;
 
  private:
   Material read(const Json& self);
   std::optional<TextureMap> map(const Json& reference);
-  // Returns the index of an image among the carried pictures, or nullopt if it is refused.
+  // Returns the index of an image among the pictures that are kept, or nullopt if the image cannot
+  // be kept.
   std::optional<std::uint32_t> carry(std::uint64_t image);
   void note_extensions(const Json& self);
 
@@ -47,12 +48,13 @@ class GltfMaterials {
   const GltfBuffer& buffer_;
   const Limits& limits_;
   CarriedPictures carried_;
-  // key: index of the image; its name, which may be a long data: URI, is read only once
+  // Key: index of the image. The map ensures that an image's name, which may be a long data: URI,
+  // is read only once.
   std::map<std::uint64_t, std::uint32_t> carried_images_;
   std::vector<Material> materials_;
   std::map<std::uint64_t, std::uint16_t> indices_;  // key: index in the document, or kAbsent
   std::set<std::string> unread_extensions_;
-  std::uint64_t maps_beyond_sets_ = 0, materials_beyond_limit_ = 0;
+  std::uint64_t glossy_materials_ = 0, maps_beyond_sets_ = 0, materials_beyond_limit_ = 0;
 };
 
 }  // namespace vitrine::inline codec

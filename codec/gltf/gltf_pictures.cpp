@@ -40,7 +40,7 @@ std::uint64_t GltfPictures::count() const {
 }
 
 std::vector<std::string> GltfPictures::report() const {
-  std::map<std::string, std::vector<std::uint64_t>> images;  // key: fault
+  std::map<std::string, std::vector<std::uint64_t>> images;  // fault -> indices of images
   for (const auto& [index, fault] : faults_)
     images[fault].push_back(index);
   std::vector<std::string> lines;

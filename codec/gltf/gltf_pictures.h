@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the images of a glTF document, and remembers why some cannot be carried.
+// Finds the images of a glTF document, and records why some of them cannot be kept.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +18,21 @@ class GltfPictures {
   GltfPictures(const Json& document, GltfBuffer& buffer, GltfResources& resources)
       : document_(document), buffer_(buffer), resources_(resources) {}
 
-  // Returns the bytes of image `index`, which live as long as the arguments of the constructor.
-  // Fails (kBadInput) with a fault and a next step.
+  // Returns the bytes of image number `index`. They live as long as the constructor's arguments.
+  // If they cannot be read, the error (kBadInput or kLimit) says why, and what the user can do.
   Expected<std::span<const std::uint8_t>> bytes(std::uint64_t index);
 
-  // Returns the name of image `index` or of its file, or an empty text.
+  // Returns the name of image number `index` or of its file, or an empty string.
   std::string name(std::uint64_t index) const;
 
   std::uint64_t count() const;
 
-  // Notes that image `index` cannot be carried. Only the first fault of an image counts.
+  // Records why image number `index` cannot be kept. Later faults of the same image are ignored.
   void refuse(std::uint64_t index, std::string fault) { faults_.try_emplace(index, fault); }
   bool is_refused(std::uint64_t index) const { return faults_.contains(index); }
   std::size_t refused() const { return faults_.size(); }
 
-  // Reports the refused images, one line for each fault.
+  // Returns one line for each kind of fault of the refused images.
   std::vector<std::string> report() const;
 
  private:
@@ -41,9 +41,9 @@ class GltfPictures {
   const Json& document_;
   GltfBuffer& buffer_;
   GltfResources& resources_;
-  // key: index of the image; data: URIs are decoded only once
+  // Key: index of the image. The map ensures that each data: URI is decoded only once.
   std::map<std::uint64_t, std::span<const std::uint8_t>> found_;
-  std::map<std::uint64_t, std::string> faults_;  // key: index of the image
+  std::map<std::uint64_t, std::string> faults_;  // index of the image -> fault
 };
 
 }  // namespace vitrine::inline codec

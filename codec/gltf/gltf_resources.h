@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the data to which a glTF file refers by URI: data in the URI itself, or files beside it.
+// Finds the data to which a glTF file refers by URI: in the URI itself, or in a companion file.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@ class GltfResources {
   GltfResources(const Companions& companions, std::uint64_t file_bytes)
       : companions_(companions), bytes_(file_bytes) {}
 
-  // Returns the data of a URI, which lives as long as this object. A file is found by the last part
-  // of its percent-decoded path. Fails (kBadInput) with a fault and a next step; the caller adds
-  // the place.
+  // Returns the data of a URI, which lives as long as this object. Finds a file by the last part of
+  // its percent-decoded path. Fails (kBadInput) with a fault and a next step; the caller adds the
+  // place.
   Expected<std::span<const std::uint8_t>> find(std::string_view uri);
 
-  // Returns the size of the glTF file and of the companions that were found.
+  // Returns the total size in bytes of the glTF file and of the companions found so far.
   std::uint64_t bytes() const { return bytes_; }
 
  private:
   const Companions& companions_;
-  std::set<std::string> found_;                     // keys of companions_
-  std::vector<std::vector<std::uint8_t>> decoded_;  // from data: URIs
+  std::set<std::string> found_;                     // keys of the companions found so far
+  std::vector<std::vector<std::uint8_t>> decoded_;  // contents of data: URIs
   std::uint64_t bytes_;
 };
 

@@ -25,7 +25,7 @@ Expected<void> check_place(const Json& node, std::uint64_t index) {
 Affine transform_of(const Json& node) {
   if (const Json& matrix = member(node, "matrix"); matrix.is_array()) {
     const auto m =
-        // in column-major order
+        // `m` is in column-major order.
         numbers<16>(matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
   }
@@ -40,7 +40,7 @@ struct Visit {
   Affine parent;
 };
 
-// Pushes the nodes in reverse order, so that the first node is visited next.
+// Pushes the nodes in reverse order, so that the first node is popped first.
 void push(const Json& nodes, const Affine& parent, std::vector<Visit>& open) {
   const auto first = static_cast<std::ptrdiff_t>(open.size());
   for (const Json& node : nodes) {
@@ -53,12 +53,12 @@ std::vector<MeshInstance> all_meshes(const Json& document) {
   const Json& meshes = member(document, "meshes");
   std::vector<MeshInstance> instances;
   for (std::uint64_t m = 0; meshes.is_array() && m < meshes.size(); ++m)
-    instances.push_back({m, {}});
+    instances.push_back({.mesh = m});
   return instances;
 }
 
-// Returns the first scene that shows a mesh. If a node was found to have no mesh, it is not
-// searched again under another parent.
+// Returns the first scene that shows a mesh. Each node is searched only once, even if it has
+// several parents.
 std::uint64_t scene_with_meshes(const Json& document) {
   const Json& nodes = member(document, "nodes");
   const Json& scenes = member(document, "scenes");
@@ -89,13 +89,14 @@ Unexpected shows_none(std::uint64_t scene, const Json& document) {
 
 }  // namespace
 
-Expected<std::vector<MeshInstance>> mesh_instances(const Json& document) {
+Expected<GltfScene> read_scene(const Json& document) {
   const std::uint64_t number = whole(document, "scene", 0);
   const Json& scene = element(document, "scenes", number);
-  if (!scene.is_object()) return all_meshes(document);
+  if (!scene.is_object()) return GltfScene{all_meshes(document), {}};
   const Json& nodes = member(document, "nodes");
   std::vector<bool> seen(nodes.is_array() ? nodes.size() : 0, false);
-  std::vector<MeshInstance> instances;
+  GltfScene out;
+  if (!member(document, "skins").empty()) out.places.resize(seen.size());
   std::vector<Visit> open;
   push(member(scene, "nodes"), Affine{}, open);
   while (!open.empty()) {
@@ -108,13 +109,14 @@ Expected<std::vector<MeshInstance>> mesh_instances(const Json& document) {
     const Json& node = nodes[visit.node];
     if (auto ok = check_place(node, visit.node); !ok) return tl::unexpected(ok.error());
     const Affine place = visit.parent * transform_of(node);
-    if (const auto mesh = whole(node, "mesh", kAbsent); mesh != kAbsent) {
-      instances.push_back({mesh, place});
-    }
+    if (const auto mesh = whole(node, "mesh", kAbsent); mesh != kAbsent)
+      out.meshes.push_back({mesh, visit.node, place});
+    if (!out.places.empty()) out.places[visit.node] = place;
     push(member(node, "children"), place, open);
   }
-  if (instances.empty() && !member(document, "meshes").empty()) return shows_none(number, document);
-  return instances;
+  if (out.meshes.empty() && !member(document, "meshes").empty())
+    return shows_none(number, document);
+  return out;
 }
 
 }  // namespace vitrine::inline codec

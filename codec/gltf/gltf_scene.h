@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the meshes that the scene of a glTF document shows, and where it places them.
+// Finds the meshes in the scene of a glTF document, and their transforms.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,22 @@
 namespace vitrine::inline codec {
 
 struct MeshInstance {
-  std::uint64_t mesh;  // index of the mesh; may be out of range
-  Affine place;        // maps the mesh's coordinates to the scene's
+  std::uint64_t mesh;            // index of the mesh; may be out of range
+  std::uint64_t node = kAbsent;  // index of the node that has the mesh
+  Affine place;                  // maps the node's coordinates to scene coordinates
 };
 
-// Returns the meshes of the document's default scene in depth-first order. If the document names no
-// default, the first scene is used. If it has no scenes, all its meshes are returned without a
-// transform.
+struct GltfScene {
+  std::vector<MeshInstance> meshes;  // in depth-first order
+  // Per node: maps the node's coordinates to scene coordinates. Empty if the document has no skins.
+  std::vector<Affine> places;
+};
+
+// Returns the meshes of the document's default scene. If the document names no default scene, the
+// first scene is used. If it has no scenes, all its meshes are returned without a transform.
 //
 // Fails (kBadInput) if a node does not exist, has two parents, is in a cycle or has an invalid
-// transform. Also fails if meshes exist but the scene shows none of them.
-Expected<std::vector<MeshInstance>> mesh_instances(const Json& document);
+// transform. Also fails if the document has meshes but the scene shows none of them.
+Expected<GltfScene> read_scene(const Json& document);
 
 }  // namespace vitrine::inline codec

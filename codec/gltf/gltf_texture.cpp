@@ -12,8 +12,9 @@ Wrap wrap_of(const Json& sampler, std::string_view key) {
                                    : Wrap::kRepeat;
 }
 
-// Returns the image of a texture. Prefers WebP, as EXT_texture_webp says, to the plain image.
-// Without either, returns the image of another extension, so that a message can name its format.
+// Returns the image of a texture. Prefers the WebP image of EXT_texture_webp to the plain image. If
+// both are missing, returns the image of any other extension, so that a message can name its
+// format.
 std::uint64_t source_of(const Json& texture) {
   std::uint64_t source =
       whole(extension(texture, "EXT_texture_webp"), "source", whole(texture, "source", kAbsent));

@@ -19,8 +19,8 @@ Unexpected damaged() {
   return bad_input("is not valid meshopt-compressed data");
 }
 
-// Checks the preconditions of the decoders, which would otherwise abort in an assertion. Also
-// checks that the data can hold the stated number of elements.
+// Checks the preconditions of meshoptimizer's decoders, which otherwise abort. Also checks that the
+// compressed data can hold the stated number of elements.
 bool is_valid(const ViewLayout& layout, std::string_view mode, std::size_t compressed) {
   if (layout.count == 0 || layout.count > kMostExpansion * compressed) return false;
   const bool is_index = layout.stride == 2 || layout.stride == 4;
@@ -50,8 +50,8 @@ bool decode(std::vector<std::uint8_t>& out, const ViewLayout& layout, std::strin
   return fault == 0;
 }
 
-// Applies the filter of a view. The filters for normals and rotations are skipped, because the
-// codec uses neither. Returns false if the filter is unknown or does not fit the stride.
+// Applies the filter of a view. Ignores the filters for normals and rotations, because the codec
+// reads neither. Returns false if the filter is unknown or does not fit the stride.
 bool unfilter(std::vector<std::uint8_t>& out, const ViewLayout& layout, std::string_view filter) {
   if (filter == "EXPONENTIAL" && layout.stride % 4 == 0) {
     meshopt_decodeFilterExp(out.data(), layout.count, layout.stride);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of faces, which become the mean colours of the vertices.
+// Converts colours of faces to vertex colours: each vertex gets the mean colour of its faces.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,21 @@ namespace vitrine::inline codec {
 
 class FaceColours {
  public:
-  // Adds a face and its colour. Corners that are out of range are ignored.
+  // Adds a face and its colour. Ignores corners that are out of range.
   void add(std::span<const std::uint32_t> corners, const StatedColour& colour);
 
-  // Gives the mesh's vertices the mean colours of their faces, unless they have colours or all
-  // faces are white, and reports what is lost. Call it when the mesh has all vertices.
+  // Gives each vertex the mean colour of its faces and reports what is lost. Gives no colours if
+  // all faces are white; keeps vertex colours that exist already. Call this once the mesh has all
+  // its vertices.
   void give_to(RawMesh& mesh) const;
 
  private:
   bool are_all(const StatedColour& colour) const;
   std::vector<Colour> means(RawMesh& mesh) const;
 
-  std::vector<std::uint32_t> corners_;  // of all faces
-  std::vector<std::size_t> ends_;       // per face: end of its corners in corners_
-  std::vector<StatedColour> colours_;   // per face
+  std::vector<std::uint32_t> corners_;  // corners of all faces, face by face
+  std::vector<std::size_t> ends_;       // per face: the end of its corners in corners_
+  std::vector<StatedColour> colours_;   // per face: its colour
 };
 
 }  // namespace vitrine::inline codec

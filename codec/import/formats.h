@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of mesh formats that can be read. All texts that list the formats are generated from
-// it, in C++ and in the web client (web/mesh_formats.mjs). `ctest -R lint.formats` checks the
+// The table of mesh formats that can be read. Lists of the formats in C++ and in the web client
+// (web/mesh_formats.mjs) are generated from this table. `ctest -R lint.formats` checks the
 // documents.
 #pragma once
 
@@ -15,18 +15,19 @@
 
 namespace vitrine::inline codec {
 
-// A format that can be read. The functions receive `bytes` without a byte order mark.
+// A format that can be read. `bytes` never starts with a byte order mark.
 struct ImportFormat {
   std::string_view name;
   std::string_view extension;
   bool (*recognises)(std::span<const std::uint8_t> bytes);
   Expected<RawMesh> (*read)(std::span<const std::uint8_t> bytes, const ReadOptions& options);
-  // returns the unit that the file states, or an empty text
+  // returns the unit that the file states, or an empty string
   std::string_view (*unit)(std::span<const std::uint8_t> bytes);
 };
 
-// A file is read by the first format that recognises it. Many binary STL files begin with a word,
-// so STL precedes the formats that are recognised by their first word.
+// A file is read by the first format that recognises it. STL comes before the formats that are
+// recognised by their first word, because many binary STL files begin with such a word. The 3MF row
+// reads the XML in a 3MF file, which is a zip package.
 inline constexpr ImportFormat kImportFormats[] = {
     {.name = "PLY",
      .extension = "ply",
@@ -53,6 +54,11 @@ inline constexpr ImportFormat kImportFormats[] = {
      .recognises = is_off,
      .read = read_off,
      .unit = unit_in_comments},
+    {.name = "3MF",
+     .extension = "3mf",
+     .recognises = is_3mf,
+     .read = read_3mf,
+     .unit = unit_of_3mf},
     {.name = "OBJ",
      .extension = "obj",
      .recognises = is_obj,
@@ -60,7 +66,7 @@ inline constexpr ImportFormat kImportFormats[] = {
      .unit = unit_in_comments},
 };
 
-// The text "PLY, GLB, glTF, STL, OFF or OBJ".
+// The string "PLY, GLB, glTF, STL, OFF, 3MF or OBJ".
 inline constexpr FixedText kImportFormatNames = join(
     kImportFormats, [](const ImportFormat& format) { return format.name; }, ", ", " or ");
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the pictures to which OBJ and PLY files refer, each only once.
+// Loads the pictures to which OBJ and PLY files refer. Loads each picture only once.
 #pragma once
 
 #include <cstdint>
@@ -19,28 +19,28 @@ namespace vitrine::inline codec {
 
 class NamedPictures {
  public:
-  // Decodes at most `limits.pixels` pixels and carries at most `limits.picture_bytes` bytes. The
-  // arguments must outlive this object.
+  // Decodes at most `limits.pixels` pixels and keeps at most `limits.picture_bytes` bytes of
+  // pictures. The arguments must outlive this object.
   NamedPictures(const Companions& companions, const Limits& limits)
       : companions_(companions), limits_(limits), pixels_left_(limits.pixels) {}
 
-  // Decodes the picture `name`. Returns null if it is missing or cannot be decoded. The picture
-  // lives as long as this object.
+  // Decodes the picture `name`. Returns null if the picture is missing or cannot be decoded. The
+  // picture lives as long as this object.
   const Picture* find(std::string_view name);
 
-  // Returns the index of the picture `name` among the carried pictures. Returns nullopt if it is
+  // Keeps the picture `name` for the mesh and returns its index. Returns nullopt if the picture is
   // missing, is not PNG, JPEG or WebP, or was found to be damaged.
   std::optional<std::uint32_t> carry(std::string_view name);
 
-  // Whether the picture `name` looks like a map of normals in tangent space, which is mostly light
-  // blue. A map of heights is grey.
+  // Whether the picture `name` looks like a tangent-space normal map. Normal maps are mostly light
+  // blue; height maps are grey.
   bool shows_normals(std::string_view name);
 
   std::vector<EncodedPicture> take() { return carried_.take(); }
 
-  // Reports the pictures that cannot be decoded or carried, one line for each.
+  // Returns one line for each picture that cannot be decoded or kept.
   std::vector<std::string> report_faults() const;
-  // Reports the number of pictures that find() has decoded.
+  // Returns a line with the number of pictures that find() has decoded.
   std::vector<std::string> report_decoded() const;
 
  private:
@@ -48,13 +48,13 @@ class NamedPictures {
   void note_fault(std::string_view name, const std::string& fault);
 
   struct Fault {
-    std::string name, text;  // of the picture as in the file, and the fault with a next step
+    std::string name, text;  // the picture's name in the file; the fault with a next step
   };
 
   const Companions& companions_;
   const Limits& limits_;
   CarriedPictures carried_;
-  // The keys are companion_key() of the names: many names may mean the same file.
+  // The keys are companion_key() of the names, because different names may mean the same file.
   std::map<std::string, std::optional<Picture>> decoded_;
   std::map<std::string, bool> shows_normals_;
   std::map<std::string, Fault> faults_;
@@ -64,8 +64,8 @@ class NamedPictures {
 // Returns the colour of `picture` at (u, v), where (0, 0) is the lower left corner.
 LinearColour sample_upwards(const Picture& picture, double u, double v);
 
-// Returns the coordinates of a place that is given as (u, v), where (0, 0) is the lower left
-// corner.
+// Converts (u, v) from coordinates with (0, 0) at the lower left corner to (0, 0) at the upper
+// left.
 inline TextureCoordinates from_upwards(double u, double v) {
   return {static_cast<float>(u), static_cast<float>(1 - v)};
 }

@@ -11,7 +11,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// A statement that names a map, in lower case, and where it is stored.
+// A statement that names a texture map: its keyword in lower case, and the member that stores the
+// map.
 struct MapStatement {
   std::string_view keyword;
   ObjMap ObjMaterial::*map;
@@ -29,7 +30,8 @@ constexpr std::array<std::string_view, 9> kUnreadMaps{
 
 constexpr double kMostEmission = 1e6;
 
-// An option of a map statement, and how many values follow it. There may be fewer numbers.
+// An option of a map statement, and the number of values after it. Fewer values may follow if they
+// are numbers.
 struct MapOption {
   std::string_view name;
   std::size_t values;
@@ -65,8 +67,8 @@ bool is_number(std::string_view word) {
   return !word.empty() && std::from_chars(word.data(), end, value).ptr == end;
 }
 
-// Returns the numbers of an option. Those that are missing, or too large for any use, are
-// `otherwise`.
+// Returns the first two numbers of an option. A number that is missing or larger than
+// kMostTextureScale becomes `otherwise`.
 std::array<float, 2> numbers_of(const std::vector<std::string_view>& values, float otherwise) {
   std::array<float, 2> out{otherwise, otherwise};
   for (std::size_t i = 0; i < std::min(values.size(), out.size()); ++i) {
@@ -92,8 +94,8 @@ std::string_view without_quotes(std::string_view name) {
   return quoted ? name.substr(1, name.size() - 2) : name;
 }
 
-// Reads the options and the file name of a map. The name may contain blanks, except behind an
-// unknown option.
+// Reads the options and the file name of a map. The name may contain blanks, unless an unknown
+// option precedes it.
 ObjMap read_map_name(std::string_view rest) {
   ObjMap out;
   rest = without_end_blanks(rest);
@@ -121,14 +123,14 @@ std::optional<std::array<double, 3>> read_colour(TextCursor& text) {
   return ok ? std::optional(out) : std::nullopt;
 }
 
-// Reads a number from 0 to 1. Returns `otherwise` if there is no number.
+// Reads a number in the range 0 to 1. Returns `otherwise` if there is no number.
 double read_unit(TextCursor& text, double otherwise) {
   double value = otherwise;
   text.read_number(value);
   return value >= 0 ? std::min(value, 1.0) : 0;
 }
 
-// Returns a part of an emission. Numbers that are not finite become 0.
+// Returns a component of the emission. Numbers that are negative, too large or not finite become 0.
 double emitted(double value) {
   return value >= 0 && value <= kMostEmission ? value : 0;
 }

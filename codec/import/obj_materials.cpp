@@ -9,7 +9,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr std::size_t kMostUsedMaterials = 0xFFFF;  // and one for faces without a material
+constexpr std::size_t kMostUsedMaterials = 0xFFFF;  // one more is kept for faces without a material
 
 LinearColour linear_diffuse(const ObjMaterial& material) {
   const auto [r, g, b] = material.diffuse.value_or(std::array<double, 3>{1, 1, 1});
@@ -46,8 +46,8 @@ const ObjMaterials::UsedMaterial* ObjMaterials::find(std::string_view name) {
   return &used_.emplace(it->first, material).first->second;
 }
 
-// Chooses the source of the vertex colours: the diffuse map or colour, or the emission if the
-// diffuse colour is black and has no map.
+// Chooses the source of the vertex colours: the diffuse map or colour. Uses the emission instead if
+// the diffuse colour is black and has no map.
 void ObjMaterials::bake(const ObjMaterial& source, UsedMaterial& out) {
   const bool is_black = source.diffuse == std::array<double, 3>{0, 0, 0};
   out.map = source.diffuse_map.empty() && is_black ? source.emission_map : source.diffuse_map;
@@ -123,8 +123,12 @@ LinearColour ObjMaterials::colour_at(double u, double v) const {
                 wrap);
 }
 
+bool ObjMaterials::are_plain() const {
+  return std::ranges::all_of(carried_, is_plain);
+}
+
 void ObjMaterials::give_to(RawMesh& mesh) {
-  if (std::ranges::all_of(carried_, is_plain)) return;
+  if (are_plain()) return;
   mesh.materials = std::move(carried_);
   mesh.pictures = pictures_.take();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of an OBJ file: their colours for the vertices, and what the mesh carries of them.
+// The materials of an OBJ file: the vertex colours they give, and the materials that the mesh
+// keeps.
 #pragma once
 
 #include <cstdint>
@@ -24,38 +25,41 @@ class ObjMaterials {
   ObjMaterials(const Companions& companions, const Limits& limits)
       : companions_(companions), pictures_(companions, limits) {}
 
-  // Reads a material library, unless it was read before. Returns false if it is not among the
-  // companions.
+  // Reads a material library, unless it was read before. Returns false if the library is not among
+  // the companions.
   bool open_library(std::string_view name);
 
-  // Selects the current material and returns its index among the carried ones. An unknown material
-  // is white, and reported if a library was read.
+  // Selects the current material and returns its index among the materials kept. An unknown
+  // material is white. It is reported if any library was read.
   std::uint16_t use(std::string_view name);
   bool has_current() const { return current_ != nullptr; }
-  // Returns the index of the material of faces that have none.
+  // Returns the index of the material for faces that have none.
   std::uint16_t plain();
 
-  // Whether a material that was used has a map.
+  // Whether any used material has a texture map.
   bool has_maps() const { return has_maps_; }
 
   // Returns the colour of the current material at (u, v), where (0, 0) is the lower left corner. If
   // the material has a picture, returns only the picture's colour, as most programs do. Otherwise
-  // returns Kd, taken as sRGB. A black material shows its emission instead.
+  // returns the diffuse colour Kd, taken as sRGB. A black material returns its emission instead.
   LinearColour colour_at(double u, double v) const;
 
-  // Moves the materials and pictures to the mesh, unless all materials are plain.
+  // Whether the materials add nothing to vertex colours.
+  bool are_plain() const;
+
+  // Moves the materials and pictures to the mesh, unless are_plain().
   void give_to(RawMesh& mesh);
 
-  // Reports what was baked into vertex colours.
+  // Returns lines for the user about materials that became vertex colours.
   std::vector<std::string> report_baked() const;
-  // Reports what is not carried, one line for each kind.
+  // Returns one line for each kind of material property that is not kept.
   std::vector<std::string> report_unread() const;
 
  private:
   struct UsedMaterial {
     LinearColour diffuse{1, 1, 1};
     const Picture* picture = nullptr;
-    ObjMap map;  // the use of the picture
+    ObjMap map;  // how the material uses the picture
     std::uint16_t index = 0;
   };
 
@@ -67,16 +71,16 @@ class ObjMaterials {
 
   const Companions& companions_;
   NamedPictures pictures_;
-  std::set<std::string> opened_;  // libraries; keys of companions_
+  std::set<std::string> opened_;  // libraries read; companion_key() of their names
   ObjLibrary library_;
   bool has_library_ = false;
-  std::set<std::string, std::less<>> unknown_;  // names of materials that no library has
+  std::set<std::string, std::less<>> unknown_;  // used materials that no library defines
   std::map<std::string, UsedMaterial, std::less<>> used_;
   const UsedMaterial* current_ = nullptr;
   std::vector<Material> carried_;
-  std::optional<std::uint16_t> plain_;  // the index that plain() returned
-  std::set<std::string_view> unread_;   // statements of maps that are not read
-  std::uint64_t beyond_limit_ = 0;      // number of used materials that are not carried
+  std::optional<std::uint16_t> plain_;  // result of plain(), once it was called
+  std::set<std::string_view> unread_;   // map statements that are not read
+  std::uint64_t beyond_limit_ = 0;      // number of used materials that are not kept
   bool has_maps_ = false;
 };
 

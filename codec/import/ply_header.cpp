@@ -169,8 +169,8 @@ Expected<PlyHeader> HeaderParser::parse() {
   return bad("there is no end_header");
 }
 
-// Checks that the data can hold all values. A value takes at least its binary size, or in a text
-// file one digit and one separator.
+// Checks that the data can hold all values. In binary, a value takes its type's size. In text, it
+// takes at least one digit and one separator.
 Expected<void> check_size(const PlyHeader& header, std::size_t bytes_left) {
   for (const PlyElement& element : header.elements) {
     std::uint64_t bytes = 0;

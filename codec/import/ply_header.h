@@ -29,7 +29,7 @@ std::uint32_t byte_size(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type;  // type of the value, or of each value in a list
+  PlyType type;  // type of the value, or of the values in a list
   bool is_list = false;
   PlyType count_type = PlyType::kUint8;
 };
@@ -43,12 +43,12 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
-  std::vector<std::string> textures;  // names of files in TextureFile comments
-  std::size_t data_begin = 0;         // byte offset of the first element's data
+  std::vector<std::string> textures;  // file names from TextureFile comments
+  std::size_t data_begin = 0;         // byte offset of the data after the header
   std::uint64_t line_count = 0;       // lines of the header, including end_header
 };
 
-// Parses the header. Fails unless the data after it can hold all the stated elements.
+// Parses the header. Fails if the bytes after the header cannot hold all stated elements.
 Expected<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes);
 
 }  // namespace vitrine::inline codec

@@ -13,13 +13,13 @@ bool has_property(const PlyHeader& header, std::string_view element,
   });
 }
 
-bool has_coordinates(const PlyHeader& header) {
+}  // namespace
+
+bool has_texture_coordinates(const PlyHeader& header) {
   return has_property(header, "face", is_texcoord) ||
          (has_property(header, "vertex", is_vertex_u) &&
           has_property(header, "vertex", is_vertex_v));
 }
-
-}  // namespace
 
 bool is_vertex_u(const PlyProperty& property) {
   return !property.is_list &&
@@ -32,8 +32,10 @@ bool is_vertex_v(const PlyProperty& property) {
 }
 
 PlyTextures::PlyTextures(const PlyHeader& header, NamedPictures& pictures)
-    : pictures_(pictures), count_(header.textures.size()) {
-  if (!has_coordinates(header)) return;
+    : pictures_(pictures),
+      count_(header.textures.size()),
+      has_coordinates_(has_texture_coordinates(header)) {
+  if (!has_coordinates_) return;
   lacks_numbers_ = count_ > 1 && !has_property(header, "face", is_texnumber);
   if (lacks_numbers_) return;
   bool has_picture = false;
@@ -54,6 +56,10 @@ std::uint16_t PlyTextures::material_of(std::uint32_t number) {
 }
 
 void PlyTextures::give_to(RawMesh& mesh) {
+  if (count_ > 0 && !has_coordinates_) {
+    mesh.repairs.push_back(counted(count_, "texture map") +
+                           " not carried: the file has no texture coordinates; export them, too");
+  }
   if (lacks_numbers_) {
     mesh.repairs.emplace_back(
         "the faces do not say which texture map they use; export them with texnumber");

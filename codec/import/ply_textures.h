@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The textures of a PLY file, as a mesh carries them: one material for each picture.
+// The textures of a PLY file. Each picture becomes one material of the mesh.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +13,39 @@ namespace vitrine::inline codec {
 
 class PlyTextures {
  public:
-  // Carries the pictures of the TextureFile comments if the file has texture coordinates and, with
-  // more than one picture, says which of them a face uses.
+  // Keeps the pictures of the TextureFile comments. Requires texture coordinates and, for several
+  // pictures, a picture number for each face. Otherwise keeps none.
   PlyTextures(const PlyHeader& header, NamedPictures& pictures);
 
-  // Whether the mesh carries no picture.
+  // Whether no picture is kept.
   bool empty() const { return materials_.empty(); }
 
-  // Returns the material of a face with this texnumber.
+  // Returns the material of a face whose texnumber is `number`.
   std::uint16_t material_of(std::uint32_t number);
 
-  // Moves the materials to the mesh and reports what is not carried.
+  // Moves the materials to the mesh and reports what is not kept.
   void give_to(RawMesh& mesh);
 
  private:
   NamedPictures& pictures_;
   std::size_t count_;  // number of pictures in the header
-  bool lacks_numbers_ = false;
+  bool has_coordinates_, lacks_numbers_ = false;
   std::vector<Material> materials_;
 };
 
-// Whether the property is the list of the texture coordinates of a face's corners.
+bool has_texture_coordinates(const PlyHeader& header);
+
+// Whether the property is the list of texture coordinates at a face's corners.
 inline bool is_texcoord(const PlyProperty& property) {
   return property.is_list && property.name == "texcoord";
 }
 
-// Whether the property is the number of the picture that a face uses.
+// Whether the property is the number of a face's picture.
 inline bool is_texnumber(const PlyProperty& property) {
   return !property.is_list && property.name == "texnumber";
 }
 
-// Whether the property is the texture coordinate u, or v, of a vertex.
+// Each function returns whether the property is a texture coordinate of a vertex: u or v.
 bool is_vertex_u(const PlyProperty& property);
 bool is_vertex_v(const PlyProperty& property);
 

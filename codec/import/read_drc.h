@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a .drc file. read_mesh() does not accept these files, because no scanner writes them.
+// Reads a .drc file. read_mesh() does not read these files, because no scanner writes them.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 bool is_drc(std::span<const std::uint8_t> bytes);
 
-// Reads positions and faces, but no colours. Draco is not safe on hostile bytes, so call this in
-// the sandbox. Fails (kBadInput, kUnsupported, kLimit).
+// Reads positions and faces, but no colours. Draco is not safe on hostile bytes: call this in the
+// sandbox. Fails (kBadInput, kUnsupported, kLimit).
 Expected<TriangleMesh> read_drc(std::span<const std::uint8_t> bytes, const Limits& limits = {});
 
 }  // namespace vitrine::inline codec

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads glTF 2.0 as text or binary: the triangles of all meshes in the scene, in the scene's
-// coordinates.
+// Reads glTF 2.0, as text or binary. The result contains the triangles of all meshes in the scene,
+// in scene coordinates.
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
+#include <set>
 
-#include "codec/gltf/draco_primitive.h"
 #include "codec/gltf/glb_file.h"
 #include "codec/gltf/gltf_accessor.h"
 #include "codec/gltf/gltf_base_colour.h"
 #include "codec/gltf/gltf_buffer.h"
 #include "codec/gltf/gltf_document.h"
+#include "codec/gltf/gltf_instances.h"
 #include "codec/gltf/gltf_materials.h"
+#include "codec/gltf/gltf_pose.h"
 #include "codec/gltf/gltf_scene.h"
 #include "codec/import/readers.h"
 
@@ -33,24 +36,56 @@ class GltfReader {
         limits_(options.limits) {}
 
   Expected<RawMesh> read() {
-    const auto instances = mesh_instances(document_);
-    if (!instances) return tl::unexpected(instances.error());
-    for (const MeshInstance& instance : *instances) {
-      if (auto ok = read_mesh(instance); !ok) return tl::unexpected(ok.error());
+    auto scene = read_scene(document_);
+    if (!scene) return tl::unexpected(scene.error());
+    places_ = std::move(scene->places);
+    for (const MeshInstance& instance : scene->meshes) {
+      if (auto ok = read_instances(instance); !ok) return tl::unexpected(ok.error());
     }
     return build();
   }
 
  private:
-  // The vertices of a primitive: index of the first one, and their number. Primitives of the same
-  // mesh may share them.
+  // The vertices of a primitive: the index of the first one, their number, and whether they are
+  // mirrored. Primitives of the same mesh may share their vertices.
   struct Range {
     std::uint32_t first, count;
+    bool is_mirrored;
   };
-  // The source of a primitive's vertices: indices of the compressed data, positions, colours, the
-  // base colour's coordinates, the material, and the coordinates of each carried set. Primitives
-  // with equal sources share their vertices.
-  using VertexSource = std::array<std::uint64_t, 5 + kCoordinateSets>;
+  // Identifies the source of a primitive's vertices. The entries are the compressed data, the
+  // positions, the joints, the colours, the base colour's coordinates, the material, the
+  // coordinates of each kept set, and the morph targets. Primitives with equal sources share their
+  // vertices.
+  using VertexSource = std::vector<std::uint64_t>;
+
+  // Reads the mesh of a node once for each copy of the node.
+  Expected<void> read_instances(const MeshInstance& instance) {
+    const auto copies = GltfInstances::open(document_, buffer_, instance.node);
+    if (!copies) return tl::unexpected(copies.error());
+    const auto joints = joints_at(instance.node);
+    if (!joints) return tl::unexpected(joints.error());
+    joints_ = *joints;
+    weights_ = morph_weights(document_, instance);
+    copies_ += copies->count();
+    if (auto ok = check_room(copies_, "copies of a mesh"); !ok) return ok;
+    for (std::uint64_t i = 0; i < copies->count(); ++i) {
+      MeshInstance copy = instance;
+      copy.place = instance.place * (*copies)[i];
+      if (auto ok = read_mesh(copy); !ok) return ok;
+    }
+    return {};
+  }
+
+  // Returns the joints of a node's skin. Reads each skin only once.
+  Expected<const Joints*> joints_at(std::uint64_t node) {
+    const auto [it, is_new] =
+        skins_.try_emplace(whole(element(document_, "nodes", node), "skin", kAbsent));
+    if (!is_new) return &it->second;
+    auto joints = joints_of(document_, buffer_, node, places_);
+    if (!joints) return tl::unexpected(joints.error());
+    it->second = *std::move(joints);
+    return &it->second;
+  }
 
   Expected<void> read_mesh(const MeshInstance& instance) {
     shared_.clear();
@@ -68,22 +103,29 @@ class GltfReader {
     const std::uint64_t mode = whole(primitive, "mode", 4);
     if (mode < 4 || mode > 6) return skip(primitive), Expected<void>{};
     const Json& compression = extension(primitive, "KHR_draco_mesh_compression");
-    if (!compression.is_object()) {
-      const auto range = vertices_of(primitive, nullptr, kAbsent, place);
-      if (!range) return tl::unexpected(range.error());
-      return read_faces(primitive, mode, *range, place.mirrors());
-    }
+    if (!compression.is_object()) return read_plain(primitive, mode, place);
     const std::uint64_t view = whole(compression, "bufferView", kAbsent);
     const auto decoded = decoded_at(view, primitive);
     if (!decoded) return tl::unexpected(decoded.error());
-    const auto range = vertices_of(primitive, *decoded, view, place);
+    const auto range = vertices_of({.json = primitive, .decoded = *decoded}, view, place);
     if (!range) return tl::unexpected(range.error());
     return add_faces((*decoded)->faces.size(),
-                     [&](std::uint64_t f) { return (*decoded)->faces[f]; }, *range,
-                     place.mirrors());
+                     [&](std::uint64_t f) { return (*decoded)->faces[f]; }, *range);
   }
 
-  // Counts a primitive of points or lines, and its points, instead of reading it.
+  // Reads a primitive that is not Draco-compressed.
+  Expected<void> read_plain(const Json& primitive, std::uint64_t mode, const Affine& place) {
+    const auto indices = indices_of(primitive);
+    if (!indices) return tl::unexpected(indices.error());
+    std::uint64_t needed = 0;
+    for (std::uint64_t i = 0; *indices && i < (*indices)->count(); ++i)
+      needed = std::max(needed, std::uint64_t{(*indices)->index(i)} + 1);
+    const auto range = vertices_of({.json = primitive, .needed = needed}, kAbsent, place);
+    if (!range) return tl::unexpected(range.error());
+    return read_faces(*indices, mode, *range);
+  }
+
+  // Skips a primitive of points or lines, and counts the primitive and its points.
   void skip(const Json& primitive) {
     ++skipped_primitives_;
     const std::uint64_t index = whole(member(primitive, "attributes"), "POSITION", kAbsent);
@@ -102,76 +144,75 @@ class GltfReader {
     return &it->second;
   }
 
-  // Returns the values of an attribute: from `decoded` if that has them, otherwise from a buffer
-  // view.
-  Expected<Accessor> attribute(const Json& primitive, const std::string& name,
-                               const DracoPrimitive* decoded) {
-    const std::uint64_t index = whole(member(primitive, "attributes"), name, kAbsent);
-    if (decoded != nullptr) {
-      const auto it = decoded->values.find(name);
-      if (it != decoded->values.end()) return Accessor::over(document_, it->second, index);
-    }
-    return Accessor::open(document_, buffer_, index);
+  // Opens an attribute of a primitive, and counts accessors that had to be corrected.
+  Expected<Accessor> attribute(const GltfPrimitive& primitive, std::string_view name) {
+    auto opened = primitive.open(document_, buffer_, name);
+    if (opened && opened->is_corrected()) corrected_.insert(primitive.accessor(name));
+    return opened;
   }
 
-  Expected<Range> vertices_of(const Json& primitive, const DracoPrimitive* decoded,
-                              std::uint64_t view, const Affine& place) {
-    const Json& attributes = member(primitive, "attributes");
-    const BaseColour base = base_colours_.of(primitive);
-    const std::uint16_t material = materials_.index_of(primitive);
+  Expected<Range> vertices_of(const GltfPrimitive& primitive, std::uint64_t view,
+                              const Affine& place) {
+    const Json& attributes = primitive.attributes();
+    const BaseColour base = base_colours_.of(primitive.json);
+    const std::uint16_t material = materials_.index_of(primitive.json);
     mesh_.use_material(material);
-    // glTF repeats a vertex where its normal or texture coordinate is discontinuous.
+    // A vertex with two normals or texture coordinates is stored twice in glTF.
     mesh_.has_seams =
         mesh_.has_seams || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
     const auto sets = coordinate_accessors(attributes, materials_[material]);
     const auto [it, is_new] = shared_.try_emplace(source_of(primitive, view, base, sets));
     if (!is_new) return it->second;
-    const auto range = add_positions(primitive, decoded, place);
+    const auto range = add_positions(primitive, place);
     if (!range) return range;
     it->second = *range;
-    if (auto ok = add_colours(primitive, decoded, base, *range); !ok)
-      return tl::unexpected(ok.error());
+    if (auto ok = add_colours(primitive, base, *range); !ok) return tl::unexpected(ok.error());
     for (std::size_t s = 0; s < sets.size(); ++s) {
       if (sets[s] == kAbsent) continue;
-      if (auto ok = add_coordinates(primitive, decoded, s, *range); !ok)
-        return tl::unexpected(ok.error());
+      if (auto ok = add_coordinates(primitive, s, *range); !ok) return tl::unexpected(ok.error());
     }
     return range;
   }
 
-  static VertexSource source_of(const Json& primitive, std::uint64_t view, const BaseColour& base,
-                                const std::array<std::uint64_t, kCoordinateSets>& sets) {
-    const Json& attributes = member(primitive, "attributes");
-    const auto accessor = [&](const std::string& name) { return whole(attributes, name, kAbsent); };
-    return {view,
-            accessor("POSITION"),
-            accessor("COLOR_0"),
-            base.picture == nullptr ? kAbsent : accessor(texcoord(base.texture.texcoord)),
-            base.is_white() ? kAbsent : whole(primitive, "material", kAbsent),
-            sets[0],
-            sets[1]};
+  VertexSource source_of(const GltfPrimitive& primitive, std::uint64_t view, const BaseColour& base,
+                         const std::array<std::uint64_t, kCoordinateSets>& sets) const {
+    const bool has_picture = base.picture != nullptr;
+    VertexSource out{view,
+                     primitive.accessor("POSITION"),
+                     primitive.accessor("JOINTS_0"),
+                     primitive.accessor("COLOR_0"),
+                     has_picture ? primitive.accessor(texcoord(base.texture.texcoord)) : kAbsent,
+                     base.is_white() ? kAbsent : whole(primitive.json, "material", kAbsent)};
+    out.insert(out.end(), sets.begin(), sets.end());
+    if (weights_.empty()) return out;
+    for (const Json& target : member(primitive.json, "targets"))
+      out.push_back(whole(target, "POSITION", kAbsent));
+    return out;
   }
 
-  Expected<Range> add_positions(const Json& primitive, const DracoPrimitive* decoded,
-                                const Affine& place) {
-    const auto points = attribute(primitive, "POSITION", decoded);
+  Expected<Range> add_positions(const GltfPrimitive& primitive, const Affine& place) {
+    const auto points = attribute(primitive, "POSITION");
     if (!points) return tl::unexpected(points.error());
     if (points->width() != 3) return bad_gltf("POSITION is not VEC3");
     const std::size_t first = mesh_.positions.size();
     if (auto ok = check_room(first + points->count(), "vertices"); !ok)
       return tl::unexpected(ok.error());
+    GltfPose pose(place, *joints_);
+    if (auto ok = pose.read(document_, buffer_, primitive, points->count(), weights_); !ok)
+      return tl::unexpected(ok.error());
+    dropped_targets_ += pose.dropped_targets();
     grow_within(mesh_.positions, first + points->count(), room());
-    for (std::uint64_t i = 0; i < points->count(); ++i) {
+    for (std::uint64_t i = 0; i < points->count(); ++i)
       mesh_.positions.push_back(
-          place({points->real(i, 0), points->real(i, 1), points->real(i, 2)}));
-    }
-    return Range{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(points->count())};
+          pose(i, {points->real(i, 0), points->real(i, 1), points->real(i, 2)}));
+    return Range{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(points->count()),
+                 pose.mirrors()};
   }
 
   static std::string texcoord(std::uint64_t n) { return "TEXCOORD_" + std::to_string(n); }
 
-  // Returns for each set that a map of the material uses the accessor of its coordinates, or
-  // kAbsent.
+  // Returns, for each set that a map of the material uses, the accessor of the set's coordinates.
+  // Other entries are kAbsent.
   static std::array<std::uint64_t, kCoordinateSets> coordinate_accessors(const Json& attributes,
                                                                          const Material& material) {
     std::array<std::uint64_t, kCoordinateSets> out;
@@ -182,17 +223,17 @@ class GltfReader {
     return out;
   }
 
-  Expected<Accessor> coordinates(const Json& primitive, const DracoPrimitive* decoded,
-                                 const std::string& name, const Range& range) {
-    auto opened = attribute(primitive, name, decoded);
-    if (opened && (opened->width() != 2 || opened->count() != range.count))
+  Expected<Accessor> coordinates(const GltfPrimitive& primitive, const std::string& name,
+                                 const Range& range) {
+    auto opened = attribute(primitive, name);
+    if (opened && (opened->width() != 2 || opened->count() < range.count))
       return bad_gltf(name + " does not match POSITION");
     return opened;
   }
 
-  Expected<void> add_coordinates(const Json& primitive, const DracoPrimitive* decoded,
-                                 std::size_t set, const Range& range) {
-    const auto places = coordinates(primitive, decoded, texcoord(set), range);
+  Expected<void> add_coordinates(const GltfPrimitive& primitive, std::size_t set,
+                                 const Range& range) {
+    const auto places = coordinates(primitive, texcoord(set), range);
     if (!places) return tl::unexpected(places.error());
     std::vector<TextureCoordinates>& out = mesh_.vertex_coordinates[set];
     grow_within(out, std::size_t{range.first} + range.count, room());
@@ -203,8 +244,8 @@ class GltfReader {
     return {};
   }
 
-  // Bounds the effect of instances: the result must not have more elements than the file and its
-  // companions have bytes after decompression.
+  // Limits the effect of repeated meshes: the result must not have more elements than the number of
+  // bytes in the file and its companions, after decompression.
   std::uint64_t room() const { return std::min(buffer_.bytes() + 3, limits_.faces); }
 
   Expected<void> check_room(std::uint64_t count, const char* what) const {
@@ -213,26 +254,22 @@ class GltfReader {
                                        "; export the mesh without instances");
   }
 
-  // Sets the colours to the product of vertex colour, factor and texture. All of these are in
-  // linear light except the pixels of the texture.
-  Expected<void> add_colours(const Json& primitive, const DracoPrimitive* decoded,
-                             const BaseColour& base, const Range& range) {
-    const Json& attributes = member(primitive, "attributes");
-    const bool has_colours = attributes.contains("COLOR_0");
+  // Sets each vertex colour to the product of the file's vertex colour, the factor and the texture.
+  // The pixels of the texture are in sRGB, all other colours in linear light.
+  Expected<void> add_colours(const GltfPrimitive& primitive, const BaseColour& base,
+                             const Range& range) {
+    const bool has_colours = primitive.has("COLOR_0");
     if (!has_colours && base.is_white()) return {};
     Accessor colours, places;
     if (has_colours) {
-      const auto opened = attribute(primitive, "COLOR_0", decoded);
+      const auto opened = colours_of(primitive, range);
       if (!opened) return tl::unexpected(opened.error());
-      if (opened->width() < 3 || opened->count() != range.count) {
-        return bad_gltf("COLOR_0 does not match POSITION");
-      }
       colours = *opened;
     }
     if (base.picture != nullptr) {
       const std::string name = texcoord(base.texture.texcoord);
-      if (!attributes.contains(name)) return bad_gltf("a textured primitive lacks " + name);
-      const auto opened = coordinates(primitive, decoded, name, range);
+      if (!primitive.has(name)) return bad_gltf("a textured primitive lacks " + name);
+      const auto opened = coordinates(primitive, name, range);
       if (!opened) return tl::unexpected(opened.error());
       places = *opened;
     }
@@ -251,23 +288,34 @@ class GltfReader {
     return {};
   }
 
-  Expected<void> read_faces(const Json& primitive, std::uint64_t mode, const Range& range,
-                            bool is_mirrored) {
+  // Opens the vertex colours. Exporters often forget to mark colours of 8 or 16 bits as normalised.
+  Expected<Accessor> colours_of(const GltfPrimitive& primitive, const Range& range) {
+    auto opened = attribute(primitive, "COLOR_0");
+    if (!opened) return opened;
+    if (opened->width() < 3 || opened->width() > 4 || opened->count() < range.count)
+      return bad_gltf("COLOR_0 does not match POSITION");
+    if (opened->normalise()) corrected_.insert(primitive.accessor("COLOR_0"));
+    return opened;
+  }
+
+  // Returns the indices of a primitive, or nullopt if it has none.
+  Expected<std::optional<Accessor>> indices_of(const Json& primitive) {
     const std::uint64_t indices = whole(primitive, "indices", kAbsent);
-    if (indices == kAbsent && mode == 4) mesh_.has_seams = true;  // each corner has its own vertex
-    std::uint64_t count = range.count;
-    Accessor accessor;
-    if (indices != kAbsent) {
-      const auto opened = Accessor::open(document_, buffer_, indices);
-      if (!opened) return tl::unexpected(opened.error());
-      if (opened->width() != 1 || !opened->is_whole()) {
-        return bad_gltf("the indices are not integers");
-      }
-      accessor = *opened;
-      count = accessor.count();
-    }
+    if (indices == kAbsent) return std::nullopt;
+    const auto opened = Accessor::open(document_, buffer_, indices);
+    if (!opened) return tl::unexpected(opened.error());
+    if (opened->width() != 1 || !opened->is_whole())
+      return bad_gltf("the indices are not integers");
+    if (opened->is_corrected()) corrected_.insert(indices);
+    return *opened;
+  }
+
+  Expected<void> read_faces(const std::optional<Accessor>& indices, std::uint64_t mode,
+                            const Range& range) {
+    if (!indices && mode == 4) mesh_.has_seams = true;  // each corner has its own vertex
+    const std::uint64_t count = indices ? indices->count() : range.count;
     const auto at = [&](std::uint64_t i) {
-      return indices == kAbsent ? static_cast<std::uint32_t>(i) : accessor.index(i);
+      return indices ? indices->index(i) : static_cast<std::uint32_t>(i);
     };
     const auto face = [&](std::uint64_t f) -> Triangle {
       if (mode == 4) return {at(3 * f), at(3 * f + 1), at(3 * f + 2)};
@@ -275,14 +323,13 @@ class GltfReader {
       return {at(mode == 6 ? 0 : f), at(f + 1 + odd), at(f + 2 - odd)};
     };
     const std::uint64_t faces = mode == 4 ? count / 3 : count < 3 ? 0 : count - 2;
-    return add_faces(faces, face, range, is_mirrored);
+    return add_faces(faces, face, range);
   }
 
-  // Adds `count` faces. `face(f)` returns the three vertices of face f, numbered from 0 within
-  // `range`.
+  // Adds `count` faces. `face(f)` returns the three vertices of face f, counted from the first
+  // vertex of `range`.
   template <class Face>
-  Expected<void> add_faces(std::uint64_t count, const Face& face, const Range& range,
-                           bool is_mirrored) {
+  Expected<void> add_faces(std::uint64_t count, const Face& face, const Range& range) {
     if (auto ok = check_room(mesh_.face_count() + count, "faces"); !ok) return ok;
     mesh_.grow_faces(mesh_.face_count() + count, room());
     for (std::uint64_t f = 0; f < count; ++f) {
@@ -293,7 +340,7 @@ class GltfReader {
       }
       for (std::uint32_t& v : t)
         v += range.first;
-      if (is_mirrored) std::swap(t[1], t[2]);
+      if (range.is_mirrored) std::swap(t[1], t[2]);
       mesh_.add_triangle(t);
     }
     return {};
@@ -303,8 +350,8 @@ class GltfReader {
     if (mesh_.positions.empty() && skipped_primitives_ > 0) return no_faces(skipped_points_);
     if (!mesh_.attributes.colours.empty())
       mesh_.attributes.colours.resize(mesh_.positions.size(), kWhite);
-    report();
     materials_.give_to(mesh_);
+    report();
     return std::move(mesh_);
   }
 
@@ -316,12 +363,33 @@ class GltfReader {
     const std::uint64_t baked = base_colours_.decoded(), told = baked + pictures_.refused();
     if (baked > 0) lines.push_back(counted(baked, "texture map") + " baked into vertex colours");
     append(pictures_.report());
-    if (pictures_.count() > told)
+    if (mesh_.materials.empty() && pictures_.count() > told)
       lines.push_back(counted(pictures_.count() - told, "texture map") + " not carried");
     append(materials_.report());
     if (has_factors_) lines.emplace_back("material colours baked into vertex colours");
     if (skipped_primitives_ > 0)
       lines.push_back(counted(skipped_primitives_, "set") + " of points or lines dropped");
+    report_corrections();
+  }
+
+  void report_corrections() {
+    std::vector<std::string>& lines = mesh_.repairs;
+    if (!corrected_.empty())
+      lines.push_back(
+          counted(corrected_.size(), "accessor") +
+          " with a wrong count, byte stride or normalisation corrected, first accessor " +
+          std::to_string(*corrected_.begin()));
+    if (buffer_.clipped() > 0)
+      lines.push_back(counted(buffer_.clipped(), "buffer view") +
+                      " longer than its buffer by at most 3 bytes of padding");
+    if (dropped_targets_ > 0)
+      lines.push_back(counted(dropped_targets_, "morph target") +
+                      " not carried: the number of its values is not that of the vertices; export "
+                      "the mesh with its shape keys applied");
+    const Json& animations = member(document_, "animations");
+    if (animations.is_array() && !animations.empty())
+      lines.push_back(counted(animations.size(), "animation") +
+                      " not carried; to show another pose, export the mesh in that pose");
   }
 
   const Json& document_;
@@ -332,8 +400,14 @@ class GltfReader {
   GltfMaterials materials_;
   const Limits& limits_;
   RawMesh mesh_;
-  std::map<VertexSource, Range> shared_;             // vertices of the mesh being read
+  std::map<VertexSource, Range> shared_;             // vertices of the mesh that is being read
   std::map<std::uint64_t, DracoPrimitive> decoded_;  // key: index of the buffer view
+  std::vector<Affine> places_;                       // see GltfScene
+  std::map<std::uint64_t, Joints> skins_;            // key: index of the skin, or kAbsent
+  const Joints* joints_ = nullptr;                   // of the node that is being read
+  std::vector<double> weights_;                      // of the node's morph targets
+  std::set<std::uint64_t> corrected_;                // indices of accessors
+  std::uint64_t copies_ = 0, dropped_targets_ = 0;
   std::uint64_t skipped_primitives_ = 0, skipped_points_ = 0;
   bool has_factors_ = false;
 };
@@ -355,7 +429,7 @@ bool is_glb(std::span<const std::uint8_t> bytes) {
   return text_of(bytes).starts_with("glTF");
 }
 
-// Every glTF document is a JSON object with the member "asset".
+// A glTF document is a JSON object with the member "asset".
 bool is_gltf(std::span<const std::uint8_t> bytes) {
   const std::string_view text = text_of(bytes);
   const std::size_t begin = text.find_first_not_of(" \t\r\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh file in any format of formats.h. The format is recognised by the content, never by
-// the file name.
+// Reads a mesh file in any format of formats.h, or a package that contains one. Recognises the
+// format by the file's content, never by its name.
 #pragma once
 
 #include <cstdint>
@@ -10,33 +10,36 @@
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
 #include "codec/files/companions.h"
+#include "codec/mesh/up_axis.h"
 #include "codec/repair/imported_mesh.h"
 
 namespace vitrine::inline codec {
 
-enum class UpAxis { kY, kZ };
-
 struct ReadOptions {
   Limits limits = {};
-  // One of kLengthUnits, which overrides the file's own unit. Empty: use the file's own unit.
+  // One of kLengthUnits, which overrides the unit in the file. If empty, the unit in the file
+  // applies.
   std::string_view unit = {};
-  UpAxis up = UpAxis::kY;  // kZ: the file's z axis points up; it is turned to y
-  Companions beside = {};  // files to which the mesh file may refer
+  UpAxis up = UpAxis::kY;  // kZ: z points up in the file; the mesh is rotated to y up
+  Companions beside = {};  // contents of the files that the mesh file names
+  // Name of the file, or empty. If the bytes do not tell its kind, an error names it by this.
+  std::string_view name = {};
 };
 
-// Returns the unit stated by the standard of the file's format or by a comment in the file
-// (unit_comment.h). Returns an empty text if there is none.
+// Returns the unit that the format's standard requires or that a comment in the file states
+// (unit_comment.h). Returns an empty string if there is neither. Unpacks a package.
 std::string_view stated_unit(std::span<const std::uint8_t> bytes);
 
-// Reads a mesh. Call this in the sandbox if the bytes are untrusted, because the decoders of Draco
-// data and pictures are not safe. Fails (kBadInput, kUnsupported, kLimit) with the place of the
-// fault.
+// Reads a mesh. If `bytes` is a package, unpacks it and reads the one model in it, with the files
+// in the package as its companions (packaged_model.h). Call this in the sandbox if the bytes are
+// untrusted, because the decoders of Draco data, pictures and packages are not safe. Fails
+// (kBadInput, kUnsupported, kLimit); the message says where the fault is.
 //
-// Allocates at most about 64 times the size of the input with the files beside it, or 128 times for
-// glTF, which may repeat its meshes. Compressed parts and pictures are counted with their decoded
-// size: at most 1024 bytes or pixels per byte, 4096 x 4096 pixels in a WebP of any size, and
-// `limits.pixels` pixels in all. Apart from these WebP pictures, a count in the file alone never
-// causes an allocation.
+// Allocates at most about 64 times the size of the input and its companions, or 128 times for glTF,
+// which may repeat its meshes. A package counts by its unpacked size. Compressed parts and pictures
+// count by their decoded size. Each byte decodes to at most 1024 bytes or pixels. A WebP of any
+// size may have 4096 x 4096 pixels. All pictures together have at most `limits.pixels` pixels.
+// Apart from these WebP pictures, a count in the file alone never causes an allocation.
 Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes,
                                  const ReadOptions& options = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads Wavefront OBJ: vertices (with the common r g b extension), polygons, and the diffuse
-// colours of materials.
+// Reads Wavefront OBJ: vertices with optional r g b colours, polygons, and diffuse colours of
+// materials.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -41,7 +41,8 @@ class ObjReader {
   }
 
  private:
-  // Moves to the next statement. Reads the comments before it, which may hold colours.
+  // Moves to the next statement. Reads the comments before that statement, because they may hold
+  // colours.
   bool seek_statement() {
     while (text_.line_is_done()) {
       if (text_.is_at_end()) return false;
@@ -70,8 +71,8 @@ class ObjReader {
     mesh_.has_seams = true;
   }
 
-  // Opens the libraries of a statement. Their names are parted by blanks, which a name may also
-  // contain. So the most words that name a library come first.
+  // Opens the libraries named in a statement. Blanks separate the names, but a name may also
+  // contain blanks. The longest sequence of words that names a library is therefore tried first.
   void open_libraries(std::string_view names) {
     constexpr std::size_t kMostWords = 8;
     for (names = without_end_blanks(names); !names.empty();) {
@@ -89,7 +90,8 @@ class ObjReader {
     }
   }
 
-  // Notes that no words at the start of `names` name a library. Returns the end of the name.
+  // Records that a library is missing. Call this if no sequence of words at the start of `names`
+  // names a library. Returns the end of the missing library's name.
   std::size_t take_missing(std::string_view names, const std::vector<std::size_t>& ends) {
     const auto end = std::ranges::find_if(
         ends, [&](std::size_t at) { return lower_case(names.substr(0, at)).ends_with(".mtl"); });
@@ -101,13 +103,14 @@ class ObjReader {
   }
 
   void use_material(std::string_view name) {
-    if (mesh_.face_count() > 0 && !has_material_) materials_.plain();  // of the faces so far
+    // Faces read so far have no material.
+    if (mesh_.face_count() > 0 && !has_material_) materials_.plain();
     has_material_ = true;
     mesh_.use_material(materials_.use(name));
   }
 
-  // A corner is v, v/vt, v//vn or v/vt/vn. Fields at the end may be empty, as in v//. Negative
-  // numbers count back from the newest vertex.
+  // A corner is written as v, v/vt, v//vn or v/vt/vn. Trailing fields may be empty, as in v//.
+  // Negative numbers count back from the last vertex.
   bool read_face() {
     corners_.clear();
     at_corners_.clear();
@@ -129,8 +132,8 @@ class ObjReader {
     return !is_cut_;
   }
 
-  // Returns the texture coordinate of a corner. `vt` is numbered like v; it is 0 if the corner has
-  // no texture coordinate.
+  // Returns the texture coordinate of a corner. `vt` counts from 1, or back from the last one if it
+  // is negative. 0 means that the corner has no texture coordinate.
   std::array<float, 2> place_of(std::int64_t vt) const {
     const auto count = static_cast<std::int64_t>(places_.size());
     if (vt < 0) vt += count + 1;
@@ -138,7 +141,7 @@ class ObjReader {
     return known ? places_[static_cast<std::size_t>(vt - 1)] : std::array<float, 2>{};
   }
 
-  // Adds the material's colour at a corner.
+  // Adds the material's colour at a corner to the mean colour of the corner's vertex.
   void add_sample(std::uint32_t vertex, const std::array<float, 2>& place) {
     if (vertex >= mesh_.positions.size()) return;
     means_.resize(mesh_.positions.size());
@@ -148,7 +151,7 @@ class ObjReader {
   void finish_materials() {
     std::vector<std::string>& lines = mesh_.repairs;
     if (!colours_.empty()) {
-      if (!means_.empty())
+      if (!means_.empty() && materials_.are_plain())
         lines.emplace_back("materials not carried: the vertices have colours of their own");
       mesh_.attributes.colours = colours_.take(mesh_.positions.size(), lines);
     } else if (!means_.empty()) {
@@ -185,14 +188,14 @@ class ObjReader {
   TextCursor text_;
   RawMesh mesh_;
   ObjColours colours_;
-  std::vector<std::uint32_t> corners_;          // of the face that is read
+  std::vector<std::uint32_t> corners_;          // corners of the face being read
   std::vector<TextureCoordinates> at_corners_;  // empty if no material has a map
   ObjMaterials materials_;
-  std::vector<std::array<float, 2>> places_;  // texture coordinates
-  ColourMeans means_;                         // mean material colours; empty if there are none yet
-  std::set<std::string> missing_libraries_;   // in quotes
-  bool has_material_ = false;                 // whether `usemtl` was read
-  bool is_cut_ = false;                       // whether the last line ends before its third corner
+  std::vector<std::array<float, 2>> places_;  // all texture coordinates of the file
+  ColourMeans means_;                         // mean material colours; may be empty
+  std::set<std::string> missing_libraries_;   // names in quotes, for the report
+  bool has_material_ = false;                 // whether a `usemtl` statement was read
+  bool is_cut_ = false;                       // whether the file ends before a face's third corner
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads OFF (Geomview): vertices and polygons. The letters of the keyword tell whether the vertices
-// have normals and colours.
+// Reads OFF (Geomview): vertices and polygons. The letters in the keyword say whether vertices have
+// normals and colours.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -12,13 +12,14 @@
 namespace vitrine::inline codec {
 namespace {
 
-// The keyword of a file: letters, which tell what each vertex has, and "OFF".
+// The keyword of a file: letters that say what each vertex has, followed by "OFF".
 struct OffKeyword {
   std::size_t size = 0;  // in bytes; 0 if the file has no keyword
   bool has_colours = false, has_normals = false, has_coordinates = false;
   bool has_more_dimensions = false;
-  // Geomview writes the letters as STCN, but the normals of a vertex before its colour. Programs
-  // that write N before C, such as MeshLab, write the colours first.
+  // Whether the colour of a vertex precedes its normal. In Geomview files, the keyword letters are
+  // in the order STCN, but normals precede colours. Programs that write N before C, such as
+  // MeshLab, write colours first.
   bool colours_come_first = false;
 };
 
@@ -26,7 +27,8 @@ bool starts_with_digit(std::string_view text) {
   return !text.empty() && text[0] >= '0' && text[0] <= '9';
 }
 
-// Returns the keyword at the start of a word. The number of vertices may follow it without a blank.
+// Returns the keyword at the start of a word. The number of vertices may follow directly, without a
+// blank.
 std::optional<OffKeyword> off_keyword(std::string_view word) {
   constexpr std::size_t kMostLetters = 6;
   const std::string lower = lower_case(word.substr(0, kMostLetters + 3));
@@ -91,9 +93,9 @@ class OffReader {
     }
     if (!text_.seek_word() || !text_.read_number(faces_))
       return bad("the number of faces is missing");
-    text_.read_number(edges);  // ignored, because it is often wrong or missing
-    // A vertex takes at least the six bytes of "0 0 0\n" (five for the last one). A face takes at
-    // least two bytes.
+    text_.read_number(edges);  // the value is ignored: it is often wrong or missing
+    // A vertex takes at least the six bytes of "0 0 0\n", or five at the end of the file. A face
+    // takes at least two bytes.
     if (vertices_ > text_.left() / 6 + 1 || faces_ > text_.left() / 2 + 1) {
       return bad("the header claims " + std::to_string(vertices_) + " vertices and " +
                  std::to_string(faces_) + " faces, more than the file can hold");
@@ -119,7 +121,7 @@ class OffReader {
     return true;
   }
 
-  // Reads the numbers that are left on the line, and returns how many there are.
+  // Reads the rest of the numbers on the line and returns how many there are.
   std::size_t read_extra() {
     std::size_t count = 0;
     while (count < extra_.size() && text_.read_number(extra_[count]))
@@ -127,12 +129,14 @@ class OffReader {
     return count;
   }
 
-  // Finds the colour among the numbers after the coordinates. Returns false if numbers are missing.
+  // Finds the vertex colour among the numbers after the coordinates. Returns false if numbers are
+  // missing.
   bool take_extra(std::size_t count) {
     const std::size_t coordinates = keyword_.has_coordinates ? 2 : 0;
     std::size_t normals = keyword_.has_normals ? 3 : 0;
     const bool wants_colour = keyword_.has_colours;
-    if (wants_colour && count == coordinates + 4) normals = 0;  // MeshLab promises absent normals
+    // MeshLab writes N in the keyword even if the vertices have no normals.
+    if (wants_colour && count == coordinates + 4) normals = 0;
     const std::size_t others = coordinates + normals;
     if (count < others + (wants_colour ? 3 : 0)) return count == 0 && !wants_colour && normals == 0;
     if (count < others + 3) return true;
@@ -142,7 +146,8 @@ class OffReader {
     return true;
   }
 
-  // Gives the vertices their colours. Under a keyword without C, negative numbers are no colours.
+  // Gives the vertices their colours. If the keyword has no C, negative numbers mean that the extra
+  // numbers are not colours.
   void take_colours() {
     if (colours_.empty()) return;
     const auto is_negative = [](const StatedColour& colour) {
@@ -193,15 +198,15 @@ class OffReader {
   RawMesh mesh_;
   std::uint64_t vertices_ = 0, faces_ = 0;
   OffKeyword keyword_;
-  std::array<float, 10> extra_{};  // numbers after the coordinates or corners of a line
+  std::array<float, 10> extra_{};  // numbers after the coordinates or corners on a line
   std::vector<StatedColour> colours_;
   FaceColours face_colours_;
   std::uint64_t numbered_colours_ = 0;
   std::vector<std::uint32_t> corners_;
 };
 
-// Whether the bytes are an OFF file without a keyword, which Geomview allows: three counts, the
-// vertices, and a first face with at least three corners.
+// Whether the bytes are an OFF file without a keyword, which Geomview allows. Such a file has three
+// counts, the vertices, and a first face with at least three corners.
 bool is_bare_off(std::span<const std::uint8_t> bytes) {
   TextCursor text(bytes);
   std::uint64_t vertices = 0, faces = 0, edges = 0, corners = 0, corner = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads PLY. The header lists the elements and their properties; those with unknown names are
-// skipped.
+// Reads PLY. The header lists the elements and their properties. Elements and properties with
+// unknown names are skipped.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -33,8 +33,7 @@ class AsciiValues {
     has_failed_ = has_failed_ || !text_.seek_word() || !text_.read_number(value);
     return value;
   }
-  // Reads a count or an index. A value out of range becomes the largest number, which later checks
-  // refuse.
+  // Reads a count or an index. A value out of range becomes 0xFFFFFFFF, which later checks refuse.
   std::uint32_t index(PlyType) {
     const double value = real(PlyType::kFloat64);
     return value >= 0 && value < 4294967295.0 ? static_cast<std::uint32_t>(value) : 0xFFFF'FFFFu;
@@ -90,7 +89,7 @@ class BinaryValues {
       case PlyType::kInt32:
         return bytes_.read<std::int32_t>(swap);
       case PlyType::kInt64:
-      case PlyType::kUint64:  // larger values become negative
+      case PlyType::kUint64:  // values above the signed range become negative
         return bytes_.read<std::int64_t>(swap);
       default:
         return bytes_.read<std::uint32_t>(swap);
@@ -108,8 +107,9 @@ bool is_real(PlyType type) {
   return type == PlyType::kFloat32 || type == PlyType::kFloat64;
 }
 
-// Whether the property has a colour in one number, as the Point Cloud Library writes it: opacity,
-// red, green and blue from the highest byte to the lowest. A float has the bits of that number.
+// Whether the property is a colour packed into one number, as the Point Cloud Library writes it.
+// From the highest byte to the lowest, the number holds opacity, red, green and blue. A float has
+// the same bits.
 bool is_packed_colour(const PlyProperty& property) {
   const bool fits = property.type == PlyType::kInt32 || property.type == PlyType::kUint32 ||
                     property.type == PlyType::kFloat32;
@@ -121,7 +121,7 @@ Colour unpacked(std::uint32_t bits) {
           static_cast<std::uint8_t>(bits)};
 }
 
-// Returns the bits of a packed colour that was read as a number.
+// Returns the bits of a packed colour. `value` is the number as read from the file.
 std::uint32_t packed_bits(double value, bool is_float) {
   if (std::abs(value) > std::numeric_limits<float>::max()) return 0;
   if (is_float) return std::bit_cast<std::uint32_t>(static_cast<float>(value));
@@ -154,19 +154,19 @@ double scale_of(PlyType type) {
     case PlyType::kUint16:
       return 1.0 / 65535;
     default:
-      return 1.0 / 255;  // wider integers also hold 0 to 255
+      return 1.0 / 255;  // wider integers hold 0 to 255 as well
   }
 }
 
-// Maps the properties of a vertex to the values that the reader uses.
+// Says which properties of a vertex the reader uses, and for what.
 struct VertexPlan {
   std::vector<Slot> slots;
-  std::vector<PlyType> types;  // as which the values are read
-  unsigned found = 0;          // set of the slots that occur: bit n stands for slot n
+  std::vector<PlyType> types;  // types to use when reading the values
+  unsigned found = 0;          // bit n is set if the file has slot n
   double colour_scale = 1;
   bool has_normal = false;
-  bool has_real_colour = false;  // whose values may be up to 1 or up to 255
-  bool has_float_bits = false;   // whether packed colours are read as floats
+  bool has_real_colour = false;  // float colours may range up to 1 or up to 255
+  bool has_float_bits = false;   // whether packed colours are stored as floats
 
   VertexPlan(const PlyElement& element, bool is_text) {
     for (const PlyProperty& property : element.properties) {
@@ -194,7 +194,9 @@ class BodyReader {
       : header_(header),
         values_(values),
         pictures_(options.beside, options.limits),
-        picture_(header.textures.size() == 1 ? pictures_.find(header.textures[0]) : nullptr),
+        picture_(header.textures.size() == 1 && has_texture_coordinates(header)
+                     ? pictures_.find(header.textures[0])
+                     : nullptr),
         textures_(header, pictures_) {
     mesh_.format = "PLY";
   }
@@ -216,13 +218,9 @@ class BodyReader {
       means_.resize(mesh_.positions.size());
       mesh_.attributes.colours = means_.take();
       mesh_.is_baked = true;
-    } else if (picture_ != nullptr || header_.textures.size() > 1) {
-      mesh_.repairs.push_back(counted(header_.textures.size(), "texture map") +
-                              " not carried: only one can be, on vertices without colours");
-      return append(pictures_.report_faults());
+      append(pictures_.report_decoded());
     }
     append(pictures_.report_faults());
-    append(pictures_.report_decoded());
   }
 
   void append(const std::vector<std::string>& lines) {
@@ -282,7 +280,7 @@ class BodyReader {
     return {};
   }
 
-  // Adds the colour of a vertex to the mesh, or to `stated` if its range is not known yet.
+  // Adds a vertex colour to the mesh, or to `stated` while the range of its values is unknown.
   void add_colour(const VertexPlan& plan, const SlotValues& row,
                   std::vector<StatedColour>& stated) {
     std::vector<Colour>& colours = mesh_.attributes.colours;
@@ -302,7 +300,7 @@ class BodyReader {
             static_cast<float>(row[kBlue])};
   }
 
-  // Reads the index lists of an element, from the property whose name starts with `list`.
+  // Reads the lists of vertex indices of an element. The name of their property starts with `list`.
   Expected<void> read_faces(const PlyElement& element, std::string_view list,
                             void (BodyReader::*add)(const std::vector<std::uint32_t>&)) {
     if (element.name == "face") mesh_.reserve_faces(element.count);
@@ -326,7 +324,7 @@ class BodyReader {
     return {};
   }
 
-  // Whether the texture coordinates of corners are read.
+  // Whether the reader needs the texture coordinates of corners.
   bool uses_places() const { return picture_ != nullptr || !textures_.empty(); }
 
   void read_row(const PlyElement& element, std::string_view list) {
@@ -359,7 +357,7 @@ class BodyReader {
     return !values_.has_failed();
   }
 
-  // Reads u and v of each corner of a face.
+  // Reads the texture coordinates u and v of each corner of a face.
   void read_places(const PlyProperty& property) {
     const std::uint32_t count = values_.index(property.count_type);
     if (count > values_.most_values()) return values_.skip(property.type, ~0u);
@@ -369,7 +367,8 @@ class BodyReader {
     values_.skip(property.type, count % 2);
   }
 
-  // Samples the picture at the corners of the row, and keeps their coordinates for the mesh.
+  // Adds the picture's colours at the row's corners to the mean colours of the vertices. Stores the
+  // corners' texture coordinates for the mesh.
   void apply_places() {
     at_corners_.clear();
     for (std::size_t i = 0; i < row_.places.size(); ++i) {
@@ -384,7 +383,8 @@ class BodyReader {
     mesh_.add_face(corners, values_.line(), at_corners_);
   }
 
-  // Adds a strip of triangles of alternating direction. The index -1 starts a new strip.
+  // Adds a triangle strip. Every other triangle is reversed, so that all face the same way. The
+  // index -1 starts a new strip.
   void strip_of(const std::vector<std::uint32_t>& strip) {
     std::size_t start = 0;
     for (std::size_t i = 0; i < strip.size(); ++i) {
@@ -415,14 +415,14 @@ class BodyReader {
 
   const PlyHeader& header_;
   Values values_;
-  // The row of a face or strip, apart from its other properties.
+  // The values that the reader takes from one face or strip.
   struct FaceRow {
     std::vector<std::uint32_t> corners;
-    std::vector<std::array<double, 2>> places;  // texture coordinates; one per corner, or empty
+    std::vector<std::array<double, 2>> places;  // texture coordinates per corner, or empty
     std::uint32_t texnumber = 0;
     bool has_corners = false;
     StatedColour colour{};
-    unsigned colour_parts = 0;  // set of the parts of `colour` that the row has
+    unsigned colour_parts = 0;  // bit set of the components of `colour` in this row
 
     void clear() {
       corners.clear(), places.clear();
@@ -431,12 +431,12 @@ class BodyReader {
   };
 
   NamedPictures pictures_;
-  const Picture* picture_;  // whose colours the vertices take; null if there is none
+  const Picture* picture_;  // source of the vertex colours; null if there is none
   PlyTextures textures_;
   FaceColours face_colours_;
-  ColourMeans means_;                           // empty if there are no texture coordinates
-  FaceRow row_;                                 // the row that is read
-  std::vector<TextureCoordinates> at_corners_;  // of the face in row_; empty if not carried
+  ColourMeans means_;                           // empty if no corner has texture coordinates
+  FaceRow row_;                                 // the row being read
+  std::vector<TextureCoordinates> at_corners_;  // coordinates of row_'s face; empty if not kept
   RawMesh mesh_;
 };
 

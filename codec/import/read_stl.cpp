@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads STL, text or binary. Triangles in STL do not share vertices, so vertices with equal
-// positions are welded.
+// Reads STL, text or binary. Triangles in STL do not share vertices, so the reader merges vertices
+// with equal positions.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,10 +21,10 @@ std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Facets as a file has them. Every three consecutive positions are the corners of one facet.
+// Facets in file order. Every three consecutive positions are the corners of one facet.
 struct Facets {
   std::vector<Vec3> corners;
-  std::vector<StatedColour> colours;  // per facet, or kNoColour; may end early
+  std::vector<StatedColour> colours;  // one per facet, or kNoColour; may end early
 
   void paint(const StatedColour& colour) {
     colours.resize(corners.size() / 3, kNoColour);
@@ -60,8 +60,8 @@ Expected<RawMesh> weld_facets(Facets facets) {
   return mesh;
 }
 
-// Whether `x` looks like a coordinate. Exporters write neither infinite nor denormal numbers, but
-// bytes of other formats often look like them.
+// Whether `x` is a plausible coordinate. STL exporters write neither infinite nor denormal numbers,
+// but bytes of other formats often look like them.
 bool is_plausible(float x) {
   return std::abs(x) < 1e30F && std::fpclassify(x) != FP_SUBNORMAL;
 }
@@ -77,8 +77,8 @@ bool are_plausible_facets(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// Whether the bytes beyond the stated number of facets are facets, too: plausible, with normals of
-// at most unit length, and not only zeros.
+// Whether the bytes after the stated number of facets are more facets. Their numbers must be
+// plausible, no component of a normal may exceed 1.01, and not all bytes may be zero.
 bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
   constexpr float kMostNormal = 1.01F;
   ByteReader facets(bytes);
@@ -102,9 +102,9 @@ bool is_control(std::uint8_t byte) {
   return byte < ' ' && (byte < '\t' || byte > '\r');
 }
 
-// Whether the file is text. Text has no zero byte; text of another format, such as OFF, has no
-// control characters either. Binary facets nearly always have both. This check is needed because
-// the digits of a text may look like facets.
+// Whether the file is text. Text starting with "solid" contains no zero byte. Text of another
+// format, such as OFF, contains no control character. Binary facets nearly always contain both.
+// This check is needed because digits can look like plausible facets.
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kHeadBytes = 1024;
   const auto head = bytes.first(std::min(bytes.size(), kHeadBytes));
@@ -112,9 +112,9 @@ bool looks_like_text(std::span<const std::uint8_t> bytes) {
   return std::ranges::find(head, 0) == head.end();
 }
 
-// Returns the number of facets of a binary file, or nullopt if the file is not binary or is cut
-// short. The size of the file decides if the count is too small, or too large for any file: some
-// programs write 0, all ones or blanks.
+// Returns the number of facets of a binary file, or nullopt if the file is not binary or is
+// truncated. Some programs write a wrong count, such as 0, 0xFFFFFFFF or blanks. The size of the
+// file then gives the number.
 std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kMostFacets = 500'000'000;
   if (bytes.size() < kHeaderBytes) return std::nullopt;
@@ -131,7 +131,8 @@ std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
   return is_believed && stated <= there ? std::optional(stated) : std::nullopt;
 }
 
-// The colour of the whole object in a header of Materialise Magics: "COLOR=" and four bytes.
+// Returns the colour of the whole object, which Materialise Magics stores in the header as "COLOR="
+// and four bytes.
 std::optional<StatedColour> object_colour(std::span<const std::uint8_t> header) {
   constexpr std::string_view kKeyword = "COLOR=";
   const std::size_t at = as_text(header.first(80)).find(kKeyword);
@@ -140,9 +141,10 @@ std::optional<StatedColour> object_colour(std::span<const std::uint8_t> header) 
   return StatedColour{bytes[0] / 255.F, bytes[1] / 255.F, bytes[2] / 255.F};
 }
 
-// Returns the colour in a facet's last two bytes: five bits per component, and a bit that tells
-// whether they count. Magics has red in the lowest bits and sets the bit for the object's colour.
-// VisCAM and SolidView have blue in the lowest bits and set the bit for a colour.
+// Returns the colour in a facet's last two bytes. They hold five bits per component, and the
+// highest bit is a flag. Magics stores red in the lowest bits and sets the flag if the object's
+// colour applies. VisCAM and SolidView store blue in the lowest bits and set the flag if the facet
+// has a colour.
 StatedColour facet_colour(std::uint16_t bits, const std::optional<StatedColour>& of_object) {
   const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 31) / 31; };
   const bool flag = bits >> 15 != 0;
@@ -181,7 +183,7 @@ Expected<RawMesh> read_binary(std::span<const std::uint8_t> bytes, std::size_t c
   out.corners.reserve(3 * count);
   ByteReader facets(bytes.subspan(kHeaderBytes));
   for (std::size_t f = 0; f < count; ++f) {
-    facets.skip(12);  // skips the normal, which follows from the corners
+    facets.skip(12);  // the normal; it can be computed from the corners
     for (int k = 0; k < 3; ++k) {
       const double x = facets.read<float>(), y = facets.read<float>(), z = facets.read<float>();
       out.corners.push_back({x, y, z});
@@ -221,7 +223,8 @@ class AsciiStl {
 
   std::string lower_word() { return lower_case(text_.word().substr(0, 12)); }
 
-  // Takes a statement. Some programs part "end" from the word after it, or join a word with a name.
+  // Handles a statement that starts with `word`. Some programs write "end facet" in two words, or a
+  // word and a name without a blank between them.
   bool take(std::string word) {
     if (word == "end") word += lower_word();
     if (word.starts_with(is_inside_ ? "endsolid" : "solid")) {
@@ -237,7 +240,7 @@ class AsciiStl {
     return word == "outerloop" || (word == "outer" && lower_word() == "loop");
   }
 
-  // Skips the word "normal" and its numbers, which need not be finite: Visual C++ writes 1.#QNAN.
+  // Skips the word "normal" and its three numbers. They may be invalid: Visual C++ writes 1.#QNAN.
   void skip_normal() {
     for (int i = 0; i < 4 && text_.seek_word(); ++i) {
       TextCursor next = text_;
@@ -246,7 +249,7 @@ class AsciiStl {
     }
   }
 
-  // Reads the colour of the facet, if there is one on this line.
+  // Reads the facet's colour if the line contains one.
   void read_colour() {
     StatedColour colour{};
     for (float& part : colour) {
@@ -273,11 +276,11 @@ class AsciiStl {
   TextCursor text_;
   Facets facets_;
   std::array<double, 3> values_{};
-  int corners_ = 0;  // corners of the current loop so far
+  int corners_ = 0;  // number of corners read in the current loop
   bool is_inside_ = false;
 };
 
-// Returns how much of a truncated binary STL file exists, such as "3 of 12 triangles". Returns
+// Returns how much of a truncated binary STL file is present, such as "3 of 12 triangles". Returns
 // nullopt if the bytes do not look like binary STL or the first triangle is incomplete.
 std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kHeaderBytes + kFacetBytes) return std::nullopt;
@@ -290,7 +293,8 @@ std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes
   return std::to_string(there) + " of " + std::to_string(count) + " triangles";
 }
 
-// Some programs write the name of the solid without a blank.
+// Accepts "solid" without a blank after it, because some programs write the solid's name directly
+// behind it.
 bool is_text_stl(std::span<const std::uint8_t> bytes) {
   const std::string word = lower_case(first_word(bytes).substr(0, 6));
   if (word == "solid") return true;

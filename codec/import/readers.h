@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The readers behind read_mesh(), one file per format. They are safe on untrusted bytes, except for
-// Draco data and pictures (see read_mesh.h).
+// The readers of the formats, which read_mesh() calls; one file per format. They are safe on
+// untrusted bytes, except for Draco data and pictures (see read_mesh.h).
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,25 @@ Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const ReadOption
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 Expected<RawMesh> read_off(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const ReadOptions& options);
+Expected<RawMesh> read_3mf(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 Expected<RawMesh> read_gltf(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 
-// Each function tells whether the bytes begin like a file of its format.
+// Each function returns whether the bytes begin like a file of its format.
 bool is_ply(std::span<const std::uint8_t> bytes);
 bool is_obj(std::span<const std::uint8_t> bytes);
 bool is_stl(std::span<const std::uint8_t> bytes);  // also true for a truncated binary file
 bool is_off(std::span<const std::uint8_t> bytes);
 bool is_glb(std::span<const std::uint8_t> bytes);
 bool is_gltf(std::span<const std::uint8_t> bytes);
+bool is_3mf(std::span<const std::uint8_t> bytes);
 
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
 bool is_off_keyword(std::string_view word);
 
-// Returns metres, the unit required by the glTF standard.
+// Returns the unit of the mesh that read_3mf() returns.
+std::string_view unit_of_3mf(std::span<const std::uint8_t> bytes);
+
+// Returns "m", because the glTF standard requires metres.
 std::string_view unit_of_gltf(std::span<const std::uint8_t> bytes);
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads numbers and words from text, line by line or across lines. Lines end with LF, CR LF or CR.
-// `#` starts a comment. A backslash at the end of a line joins it with the next line.
+// Reads numbers and words from text, within a line or across lines. Lines end with LF, CR LF or CR.
+// `#` starts a comment. A backslash at the end of a line joins the line with the next one.
 #pragma once
 
 #include <charconv>
@@ -24,7 +24,7 @@ class TextCursor {
   std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
   std::uint64_t line() const { return line_; }  // number of the current line, from 1
 
-  // Whether nothing or only a comment is left on this line.
+  // Whether the rest of the line is blank or a comment.
   bool line_is_done() {
     skip_blanks();
     return at_ == end_ || ends_line(*at_) || *at_ == '#';
@@ -36,7 +36,7 @@ class TextCursor {
     if (at_ != end_) step_over_end(), ++line_;
   }
 
-  // Moves to the next word, skipping line ends and comments. Returns false at the end of the text.
+  // Moves to the next word. Skips line ends and comments. Returns false at the end of the text.
   bool seek_word() {
     while (line_is_done()) {
       if (at_ == end_) return false;
@@ -45,7 +45,7 @@ class TextCursor {
     return true;
   }
 
-  // Returns the next word of this line, or an empty text if there is none.
+  // Returns the next word of the line, or an empty string if there is none.
   std::string_view word() {
     if (line_is_done()) return {};
     const char* begin = at_;
@@ -62,9 +62,9 @@ class TextCursor {
     return {begin, static_cast<std::size_t>(at_ - begin)};
   }
 
-  // Reads the number at the cursor. The number must be a whole word or be followed by `stop`.
-  // Returns false if there is no such number on this line; the cursor then stays before the word.
-  // Works for double, float and integers.
+  // Reads the number at the cursor: a double, float or integer. The number must be a whole word or
+  // be followed by `stop`. If the line has no such number, returns false and leaves the cursor
+  // before the word.
   template <class Number>
   bool read_number(Number& value, char stop = ' ') {
     if (line_is_done()) return false;
@@ -78,7 +78,8 @@ class TextCursor {
     return true;
   }
 
-  // Whether the cursor is not within a word: before a blank or a joined line, or at an end.
+  // Whether the cursor is at the end of a word: before a blank, at a joined line end, or at the end
+  // of the text.
   bool is_after_word() const { return at_ == end_ || is_space(*at_) || joins_lines(); }
 
   // Whether the next word looks like a number with a decimal comma, such as "0,5".
@@ -108,8 +109,8 @@ class TextCursor {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
   }
 
-  // Returns 0 for a number that is too small, and the largest value for one that is too large.
-  // Later checks refuse the largest value.
+  // Returns the value for a number out of range: 0 if it is too small, the type's largest value if
+  // it is too large. Later checks refuse the largest value.
   template <class Number>
   static Number out_of_range(Number, const char* begin, const char* end) {
     const std::string_view text(begin, static_cast<std::size_t>(end - begin));
@@ -130,8 +131,8 @@ class TextCursor {
 
   bool joins_lines() const { return *at_ == '\\' && at_ + 1 != end_ && ends_line(at_[1]); }
 
-  // Skips a backslash at the end of the line, together with the line end. Returns false if there is
-  // none.
+  // Skips a backslash at the end of the line and the line end after it. Returns false if there is
+  // no such backslash.
   bool join_lines() {
     if (!joins_lines()) return false;
     ++at_;
@@ -145,7 +146,7 @@ class TextCursor {
   std::uint64_t line_;
 };
 
-// Returns the text with the letters A to Z in lower case.
+// Returns the text with A to Z changed to lower case.
 inline std::string lower_case(std::string_view text) {
   std::string out(text);
   for (char& c : out)

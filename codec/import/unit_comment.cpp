@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
 #include "codec/import/readers.h"
@@ -18,7 +19,7 @@ struct Spelling {
   std::string_view word, unit;
 };
 
-constexpr std::array<Spelling, 18> kSpellings{{{"mm", "mm"},
+constexpr std::array<Spelling, 19> kSpellings{{{"mm", "mm"},
                                                {"millimeter", "mm"},
                                                {"millimeters", "mm"},
                                                {"millimetre", "mm"},
@@ -35,11 +36,12 @@ constexpr std::array<Spelling, 18> kSpellings{{{"mm", "mm"},
                                                {"metres", "m"},
                                                {"in", "in"},
                                                {"inch", "in"},
-                                               {"inches", "in"}}};
+                                               {"inches", "in"},
+                                               {"unknown", ""}}};
 
-std::string_view unit_named(std::string_view word) {
+std::optional<std::string_view> unit_named(std::string_view word) {
   const auto it = std::ranges::find(kSpellings, word, &Spelling::word);
-  return it == kSpellings.end() ? std::string_view{} : it->unit;
+  return it == kSpellings.end() ? std::nullopt : std::optional(it->unit);
 }
 
 std::string take_lower_word(std::string_view& line) {
@@ -51,31 +53,32 @@ std::string take_lower_word(std::string_view& line) {
   return word;
 }
 
-// Whether a line continues with another word, not with a mark or its end.
+// Whether another word follows on the line, rather than a punctuation mark or the line end.
 bool goes_on(std::string_view line) {
   const std::size_t next = line.find_first_not_of(" \t\r");
   return next != line.npos && kBetweenWords.find(line[next]) == kBetweenWords.npos;
 }
 
 // Returns the unit in the text after the word "unit" or "units", such as "mm", "is mm", "are in
-// inches" or "= 1 mm". The word "in" before another word, as in "in world space", is no unit.
-std::string_view unit_after(std::string_view line) {
+// inches" or "= 1 mm", and an empty string if it is "unknown". The word "in" does not mean inches
+// if another word follows it, as in "in world space".
+std::optional<std::string_view> unit_after(std::string_view line) {
   std::string word = take_lower_word(line);
   for (const std::string_view filler : {"is", "are", "1"}) {
     if (word == filler) word = take_lower_word(line);
   }
   const bool is_preposition = word == "in" && goes_on(line);
-  const std::string_view unit = unit_named(word), after = unit_named(take_lower_word(line));
+  const auto unit = unit_named(word), after = unit_named(take_lower_word(line));
   return is_preposition ? after : unit;
 }
 
-std::string_view unit_in_line(std::string_view line) {
+std::optional<std::string_view> unit_in_line(std::string_view line) {
   while (!line.empty()) {
     const std::string word = take_lower_word(line);
     if (word != "unit" && word != "units") continue;
-    if (const auto unit = unit_after(line); !unit.empty()) return unit;
+    if (const auto unit = unit_after(line)) return unit;
   }
-  return {};
+  return std::nullopt;
 }
 
 std::string_view take_line(std::string_view& text) {
@@ -89,18 +92,19 @@ std::string_view unit_in_ply(std::string_view head) {
     const std::string_view line = take_line(head);
     if (line == "end_header") break;
     if (!line.starts_with("comment") && !line.starts_with("obj_info")) continue;
-    if (const auto unit = unit_in_line(line); !unit.empty()) return unit;
+    if (const auto unit = unit_in_line(line)) return *unit;
   }
   return {};
 }
 
-// Searches the comments above the first line of data. In OFF, a keyword precedes the comments.
+// Searches the `#` comments above the first line of data. In OFF, the keyword comes before the
+// comments.
 std::string_view unit_in_hash_comments(std::string_view head) {
   while (!head.empty()) {
     const std::string_view line = take_line(head);
     if (is_off_keyword(line) || line.empty()) continue;
     if (!line.starts_with('#')) break;
-    if (const auto unit = unit_in_line(line.substr(1)); !unit.empty()) return unit;
+    if (const auto unit = unit_in_line(line.substr(1))) return *unit;
   }
   return {};
 }
@@ -111,8 +115,9 @@ std::string_view unit_in_comments(std::span<const std::uint8_t> file) {
   const std::string_view head(reinterpret_cast<const char*>(file.data()),
                               std::min(file.size(), kMostHeadBytes));
   if (head.starts_with("ply")) return unit_in_ply(head);
-  if (is_binary_stl(file)) return unit_in_line(head.substr(0, 80));
-  if (head.starts_with("solid")) return unit_in_line(head.substr(0, head.find_first_of("\r\n")));
+  if (is_binary_stl(file)) return unit_in_line(head.substr(0, 80)).value_or("");
+  if (head.starts_with("solid"))
+    return unit_in_line(head.substr(0, head.find_first_of("\r\n"))).value_or("");
   return unit_in_hash_comments(head);
 }
 

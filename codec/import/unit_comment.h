@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the unit of length that a mesh file states in its comments.
+// Finds the length unit that a mesh file states in its comments.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,10 @@
 
 namespace vitrine::inline codec {
 
-// Returns the unit ("mm", "cm", "m" or "in") stated in the comments at the start of a PLY, OBJ, STL
-// or OFF file, such as "comment unit mm", "# Units: millimeters" or "UNITS=mm". Returns an empty
-// text if no comment states a unit. The search ends after 64 KB or at the first line of data.
+// Returns the unit that a comment states: "mm", "cm", "m" or "in". The comment must be at the start
+// of the file: in the first 64 KB, and before the first line of data. Examples of comments are
+// "comment unit mm", "# Units: millimeters" and "UNITS=mm". The file may be PLY, OBJ, STL
+// or OFF. Returns an empty string if no comment states a unit.
 std::string_view unit_in_comments(std::span<const std::uint8_t> file);
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distance from a point to one triangle. The code is inline because distance queries spend
-// nearly all their time in it.
+// The distance from a point to a triangle. The code is inline because distance queries spend nearly
+// all their time here.
 #pragma once
 
 #include "codec/core/vec.h"
@@ -15,7 +15,7 @@ inline const Vec3& corner(const TrianglePoints& t, std::uint32_t k) noexcept {
   return k == 0 ? t.a : k == 1 ? t.b : t.c;
 }
 
-// Returns the normal vector of the triangle. The vector's length is twice the triangle's area.
+// Returns the normal vector of the triangle. Its length is twice the triangle's area.
 inline Vec3 normal_of(const TrianglePoints& t) noexcept {
   return cross(t.b - t.a, t.c - t.a);
 }
@@ -23,8 +23,8 @@ inline Vec3 normal_of(const TrianglePoints& t) noexcept {
 // Returns the point on the triangle's three edges that is closest to `p`.
 Vec3 closest_point_of_edges(const TrianglePoints& triangle, const Vec3& p) noexcept;
 
-// Returns the point of the triangle that is closest to `p`. Tests the Voronoi regions of the
-// triangle (Ericson, Real-Time Collision Detection, section 5.1.5). Triangles without area are
+// Returns the point of the triangle closest to `p`. Finds the Voronoi region of the triangle that
+// contains `p` (Ericson, Real-Time Collision Detection, section 5.1.5). Triangles without area are
 // treated as segments or points.
 inline Vec3 closest_point(const TrianglePoints& t, const Vec3& p) noexcept {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;

@@ -31,13 +31,13 @@ Expected<void> check_faces(std::uint32_t vertex_count, std::span<const Triangle>
 
 }  // namespace
 
-// The directed edges of all faces, sorted by start, then end, then corner. Used to find the
-// opposite half-edge of each edge. The edges that leave vertex v have the indices [start[v],
-// start[v + 1]).
+// The directed edges of all faces, sorted by start vertex, then end vertex, then corner. The table
+// serves to find the opposite half-edge of each edge. The edges that leave vertex v have the
+// indices from start[v] to start[v + 1] - 1.
 struct Connectivity::EdgeTable {
   struct DirectedEdge {
     VertexId to;
-    Corner corner;  // the corner opposite to this edge
+    Corner corner;  // the corner opposite to this edge in its face
   };
 
   std::vector<DirectedEdge> edges;
@@ -63,8 +63,8 @@ struct Connectivity::EdgeTable {
   Expected<void> check_distinct() const;
 };
 
-// Sorts by end and then by start, both with counting sort. One table of counts serves both sorts
-// because each vertex has as many incoming edges as outgoing ones.
+// Sorts the edges by end vertex and then by start vertex, using counting sort twice. One table of
+// counts serves for both, because each vertex has as many incoming as outgoing edges.
 Connectivity::EdgeTable::EdgeTable(std::uint32_t vertex_count, std::span<const Triangle> faces)
     : edges(faces.size() * 3), start(std::size_t{vertex_count} + 1, 0) {
   const auto corners = static_cast<Corner>(faces.size() * 3);
@@ -129,7 +129,8 @@ Expected<std::vector<Corner>> Connectivity::glue_twins(const EdgeTable& table) {
   return border;
 }
 
-// A border edge runs from a to b, so the face that closes the loop there is (b, a, virtual).
+// A border edge runs from a to b. The virtual face at this edge is therefore (b, a, virtual
+// vertex).
 Expected<void> Connectivity::close_loops(std::span<const Corner> border) {
   std::vector<std::uint8_t> is_closed(border.size(), false);
   for (VertexId start = 0; start < border.size(); ++start) {
@@ -145,8 +146,8 @@ Expected<void> Connectivity::close_loops(std::span<const Corner> border) {
       const Corner base = static_cast<Corner>(step_.size());
       add_face(b, a, loop);
       glue(base + 2, c);
-      // This face shares the edge (virtual, a) with the previous face. The corners opposite to this
-      // edge are the second corner of the previous face and the first corner of this face.
+      // This face shares the edge (virtual vertex, a) with the previous face. The corners opposite
+      // to the edge are the previous face's second corner and this face's first corner.
       if (length > 0) glue(base - 3 + 1, base);
       a = b;
     }
@@ -215,14 +216,18 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
   corner_at_.push_back(at_i);
   for (std::uint32_t k = i; k != j; k = k + 1 == n ? 0 : k + 1)
     set_vertex(corners[k], w);
+  // The swings are those of glue() at the five pairs of opposite corners.
   const Corner a = static_cast<Corner>(step_.size()), b = a + 3;
-  add_face(v, qi, w);
-  add_face(v, w, qj);
-  glue(next(before_i), a + 2);
-  glue(prev(at_i), a);
-  glue(a + 1, b + 2);
-  glue(next(before_j), b);
-  glue(prev(at_j), b + 1);
+  step_.push_back({.to = qi, .swing = b});
+  step_.push_back({.to = w, .swing = prev(before_i)});
+  step_.push_back({.to = v, .swing = at_i});
+  step_.push_back({.to = w, .swing = at_j});
+  step_.push_back({.to = qj, .swing = a + 2});
+  step_.push_back({.to = v, .swing = prev(before_j)});
+  step_[before_i].swing = a;
+  step_[next(at_i)].swing = a + 1;
+  step_[before_j].swing = b + 1;
+  step_[next(at_j)].swing = b + 2;
   corner_at_[v] = at_j;
   add_valence(qi, 1);
   add_valence(qj, 1);
@@ -230,11 +235,11 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
 }
 
 void Connectivity::collapse(Corner c) {
-  // Face B = (v1, v2, apex12); face A = (v2, v1, apex21) lies across the edge (v1, v2).
+  // Face B is (v1, v2, apex12). Face A, across the edge (v1, v2), is (v2, v1, apex21).
   const Corner b1 = c, b2 = next(c), b3 = prev(c);
   const Corner a3 = opposite(b3), a2 = next(a3), a1 = prev(a3);  // a1 is at v1, a2 at v2
   const VertexId v1 = vertex(b1), v2 = vertex(b2), apex12 = vertex(b3), apex21 = vertex(a3);
-  // Reassign every corner of v2 to v1.
+  // Assigns all corners of v2 to v1.
   Corner k = b2;
   do {
     set_vertex(k, v1);
@@ -291,7 +296,7 @@ void Connectivity::erase(VertexId v) {
     const Corner corner = c;
     c = swing(c);
     for (const Corner k : {corner, next(corner), prev(corner)}) {
-      if (vertex(k) == kNoCorner) break;  // already removed with another vertex of this face
+      if (vertex(k) == kNoCorner) break;  // the face was removed with another vertex
       add_valence(vertex(k), -1);
       set_vertex(k, kNoCorner);
     }

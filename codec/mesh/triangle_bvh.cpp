@@ -29,6 +29,12 @@ double squared_distance(const TriangleBvh::Node& n, const Vec3& p, double slack)
   return x * x + y * y + z * z;
 }
 
+// Returns half the surface area of the node's box.
+double half_area(const TriangleBvh::Node& n) {
+  const double x = n.high[0] - n.low[0], y = n.high[1] - n.low[1], z = n.high[2] - n.low[2];
+  return x * y + y * z + z * x;
+}
+
 constexpr std::uint32_t kUnnamed = 0xFFFF'FFFFu;
 
 struct Centre {
@@ -51,8 +57,8 @@ std::size_t widest_axis(std::span<const Centre> centres) {
   return axis;
 }
 
-// Sorts the centres so that each half of the array, and recursively each half of a half, holds the
-// centres on one side of a plane.
+// Sorts the centres so that the two halves of the array lie on different sides of a plane. Does the
+// same with each half, recursively.
 void order(std::span<Centre> centres) {
   if (centres.size() <= TriangleBvh::kLeafSize) return;
   const std::size_t axis = widest_axis(centres), half = centres.size() / 2;
@@ -85,6 +91,10 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
   own_nodes_.resize(1);
   build(0, 0, size());
   nodes_ = own_nodes_;
+  if (!has_overlapping_leaves()) return;
+  own_oriented_.resize(own_nodes_.size());
+  orient(0, 0, size());
+  oriented_ = own_oriented_;
 }
 
 void TriangleBvh::add_faces(const TriangleMesh& mesh) {
@@ -109,8 +119,8 @@ void TriangleBvh::add_faces(const TriangleMesh& mesh) {
   faces_ = own_faces_;
 }
 
-// Fills `node` for the triangles [first, first + count). Builds the children first because the
-// node's box is computed from their boxes.
+// Fills `node` for the triangles [first, first + count). Builds the children first, because their
+// boxes give the node's box.
 void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
   if (count <= kLeafSize) {
     own_nodes_[node].first = first, own_nodes_[node].count = count;
@@ -126,7 +136,10 @@ void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t c
 }
 
 TriangleBvh::TriangleBvh(const TriangleBvh& shape, std::vector<Vec3> moved)
-    : nodes_(shape.nodes_), faces_(shape.faces_), positions_(std::move(moved)) {
+    : nodes_(shape.nodes_),
+      oriented_(shape.oriented_),
+      faces_(shape.faces_),
+      positions_(std::move(moved)) {
   for (std::size_t v = 0; v < positions_.size(); ++v)
     slack_ = std::max(slack_, length(positions_[v] - shape.positions_[v]));
 }
@@ -152,31 +165,72 @@ void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count
   node.high = {round_up(high.x), round_up(high.y), round_up(high.z)};
 }
 
-ClosestTriangle TriangleBvh::closest(const Vec3& p, ClosestTriangle best) const {
+// Whether the leaves' boxes together have many times the area of the whole box. The ratio is the
+// mean number of leaves that a line through the whole box meets. It is a few for most surfaces, and
+// grows with the number of triangles of a fan.
+bool TriangleBvh::has_overlapping_leaves() const {
+  constexpr double kMany = 64;
+  double sum = 0;
+  for (const Node& node : nodes_) {
+    if (node.count > 0) sum += half_area(node);
+  }
+  return sum > kMany * half_area(nodes_[0]);
+}
+
+// Computes the oriented boxes of `node` and of the nodes below it, for the triangles
+// [first, first + count).
+void TriangleBvh::orient(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+  OrientedBox& box = own_oriented_[node] = OrientedBox(triangle(first + count / 2));
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const TrianglePoints t = triangle(i);
+    box.add(t.a), box.add(t.b), box.add(t.c);
+  }
+  if (nodes_[node].count > 0) return;
+  orient(nodes_[node].first, first, count / 2);
+  orient(nodes_[node].first + 1, first + count / 2, count - count / 2);
+}
+
+// Returns a lower bound of the squared distance from p to the node's triangles. Does not look for a
+// better bound than `enough`.
+double TriangleBvh::squared_to_box(std::uint32_t node, const Vec3& p, double enough) const {
+  const double squared = squared_distance(nodes_[node], p, slack_);
+  if (oriented_.empty() || squared >= enough) return squared;
+  return std::max(squared, oriented_[node].squared_distance(p, slack_));
+}
+
+ClosestTriangle TriangleBvh::closest(const Vec3& p, ClosestTriangle best, double precision) const {
   struct PendingNode {
     std::uint32_t node;
     double squared;
   };
-  std::array<PendingNode, 64> stack;  // large enough, because the tree is balanced
+  std::array<PendingNode, 64> stack;  // 64 suffice, because the tree is balanced
   std::size_t size = 0;
+  best.visited = 0;
+  double ignored = std::numeric_limits<double>::infinity();  // least `squared` of ignored nodes
   if (!empty()) stack[size++] = {0, 0};
   while (size > 0) {
     const PendingNode top = stack[--size];
-    if (top.squared >= best.squared) continue;
+    const double factor = best.visited < kExactNodes ? 1 : 1 + precision;
+    if (top.squared * (factor * factor) >= best.squared) {
+      ignored = std::min(ignored, top.squared);
+      continue;
+    }
+    ++best.visited;
     const Node& node = nodes_[top.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const double squared = squared_distance(triangle(i), p);
-      if (squared < best.squared) best = {squared, i};
+      if (squared < best.squared) best.squared = squared, best.triangle = i;
     }
     if (node.count > 0) continue;
     std::array<PendingNode, 2> child;
     for (std::uint32_t k = 0; k < 2; ++k)
-      child[k] = {node.first + k, squared_distance(nodes_[node.first + k], p, slack_)};
+      child[k] = {node.first + k, squared_to_box(node.first + k, p, best.squared)};
     auto& [near, far] = child;
     if (far.squared < near.squared) std::swap(near, far);
     if (far.squared < best.squared) stack[size++] = far;
     if (near.squared < best.squared) stack[size++] = near;
   }
+  best.at_least = std::min(best.squared, ignored);
   return best;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the triangle of a mesh that is closest to a point. The bounding volume hierarchy is one
+// Finds the triangle of a mesh that is closest to a point. Uses a bounding volume hierarchy in a
 // flat array.
 #pragma once
 
@@ -11,40 +11,45 @@
 
 #include "codec/core/vec.h"
 #include "codec/mesh/closest_point.h"
+#include "codec/mesh/oriented_box.h"
 #include "codec/mesh/triangle_mesh.h"
 
 namespace vitrine::inline codec {
 
 struct ClosestTriangle {
-  double squared = std::numeric_limits<double>::infinity();  // squared distance to the query point
+  double squared = std::numeric_limits<double>::infinity();  // squared distance to the point
   std::uint32_t triangle = 0xFFFF'FFFFu;  // index of the triangle in the TriangleBvh
+  // No triangle is closer than this squared distance. Equals `squared` if the query is exact.
+  double at_least = 0;
+  // Number of nodes that the search visited: about a hundred, but a large share of all nodes if
+  // many triangles are equally close to the point.
+  std::uint32_t visited = 0;
 };
 
 class TriangleBvh {
  public:
   struct Node {
     std::array<float, 3> low, high;  // corners of the bounding box, rounded outwards
-    // In a leaf, the first triangle. In an inner node, the left child, which the right child
-    // follows.
+    // Leaf: index of the first triangle. Inner node: index of the left child; the right child is
+    // next.
     std::uint32_t first;
     std::uint32_t count;  // number of triangles in a leaf; 0 in an inner node
   };
   static constexpr std::uint32_t kLeafSize = 4;
 
-  // Builds the hierarchy. Face indices must be in range and positions finite.
+  // Builds the hierarchy. Face indices must be in range, and positions must be finite.
   explicit TriangleBvh(const TriangleMesh& mesh);
   TriangleBvh(TriangleBvh&&) = default;
   TriangleBvh& operator=(TriangleBvh&&) = default;
-  // Makes a hierarchy of the same faces with moved vertices. Borrows everything except the
-  // positions from `shape`, which must outlive this object and must have been built from a mesh.
-  // `moved` holds the new positions in the order of shape.positions(). Queries stay fast if the
-  // vertices moved little.
+  // Creates a hierarchy of the same faces with moved vertices. `moved` holds the new positions in
+  // the order of shape.positions(). All other data stays in `shape`, which must outlive this object
+  // and must have been built from a mesh. Queries stay fast if the vertices moved only slightly.
   TriangleBvh(const TriangleBvh& shape, std::vector<Vec3> moved);
 
   bool empty() const { return faces_.empty(); }
   std::uint32_t size() const { return static_cast<std::uint32_t>(faces_.size()); }
-  // The nodes of the tree; the root is nodes()[0]. In an object with moved vertices, these are the
-  // nodes of its shape, whose boxes bound the vertices before the move.
+  // The nodes of the tree; nodes()[0] is the root. If vertices were moved, these are the nodes of
+  // `shape`, and their boxes bound the vertices before the move.
   std::span<const Node> nodes() const { return nodes_; }
   // Returns the corners of triangle t. Triangles are numbered in the order of the leaves.
   TrianglePoints triangle(std::uint32_t t) const {
@@ -52,29 +57,41 @@ class TriangleBvh {
     return {positions_[f[0]], positions_[f[1]], positions_[f[2]]};
   }
   const Vec3& point(std::uint32_t t, std::uint32_t k) const { return positions_[faces_[t][k]]; }
-  // The triangles as vertex indices. Vertices are numbered in order of first use.
+  // The triangles as vertex indices. Vertices are numbered in the order of their first use.
   std::span<const Triangle> faces() const { return faces_; }
   std::span<const Vec3> positions() const { return positions_; }
-  // For each vertex, its index in the mesh. Empty in an object with moved vertices.
+  // For each vertex, its index in the mesh. Empty if vertices were moved.
   std::span<const std::uint32_t> vertices() const { return vertices_; }
 
-  // Returns the closest triangle, or `bound` if no triangle is closer than `bound`. A tight bound,
-  // such as the distance to a nearby triangle, makes the query several times faster.
-  ClosestTriangle closest(const Vec3& p, ClosestTriangle bound = {}) const;
+  // Whether the boxes of many triangles overlap, as in a fan of long triangles. Each node then also
+  // has an oriented box. Without these, most queries would visit a large share of all nodes.
+  bool is_slender() const { return !oriented_.empty(); }
+
+  // Returns the closest triangle, or `bound` if no triangle is closer. A good bound, such as the
+  // distance to a nearby triangle, makes the query several times faster. Once it has visited
+  // kExactNodes nodes, a query ignores triangles that are closer by less than the factor
+  // 1 + `precision`, since many triangles may be about equally close.
+  static constexpr std::uint32_t kExactNodes = 256;
+  ClosestTriangle closest(const Vec3& p, ClosestTriangle bound = {}, double precision = 0) const;
 
  private:
   void add_faces(const TriangleMesh& mesh);
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void bound_box(Node& node, std::uint32_t first, std::uint32_t count) const;
   void bound_children(Node& node) const;
+  bool has_overlapping_leaves() const;
+  void orient(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  double squared_to_box(std::uint32_t node, const Vec3& p, double enough) const;
 
   std::vector<Node> own_nodes_;
   std::vector<Triangle> own_faces_;
-  std::span<const Node> nodes_;      // refers to own_nodes_ or to the shape's nodes
-  std::span<const Triangle> faces_;  // refers to own_faces_ or to the shape's faces
+  std::vector<OrientedBox> own_oriented_;
+  std::span<const Node> nodes_;            // view of own_nodes_ or of the shape's nodes
+  std::span<const OrientedBox> oriented_;  // same for own_oriented_: one for each node, or empty
+  std::span<const Triangle> faces_;        // view of own_faces_ or of the shape's faces
   std::vector<Vec3> positions_;
   std::vector<std::uint32_t> vertices_;
-  // Largest distance, in model units, by which a moved triangle may extend beyond its box.
+  // Largest distance, in model units, by which moved triangles may extend beyond their boxes.
   double slack_ = 0;
 };
 

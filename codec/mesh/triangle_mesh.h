@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Indexed triangle meshes, in model units or on the lattice. All modules exchange meshes in these
-// types.
+// Indexed triangle meshes, in model units or on the lattice. All modules use these types.
 #pragma once
 
 #include <string>
@@ -12,15 +11,15 @@
 
 namespace vitrine::inline codec {
 
-// A mesh in model units. The corners of a face run counter-clockwise, seen from outside.
+// A mesh in model units. The corners of a face are counter-clockwise as seen from outside.
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> faces;
   VertexAttributes attributes;
 };
 
-// A mesh whose positions are lattice points. Quantisation keeps the connectivity, so several
-// vertices may have the same position and faces may have no area.
+// A mesh whose positions are lattice points. Quantisation does not change the connectivity. Several
+// vertices may therefore have the same position, and faces may have no area.
 struct LatticeMesh {
   Lattice lattice;
   std::vector<Vec3i> positions;
@@ -28,7 +27,7 @@ struct LatticeMesh {
   VertexAttributes attributes;
 };
 
-// Rounds the positions of `mesh` to `lattice`. Copies the faces and attributes.
+// Rounds the positions of `mesh` to points of `lattice`. Copies faces and attributes.
 LatticeMesh quantise(const TriangleMesh& mesh, const Lattice& lattice);
 
 TriangleMesh to_model(const LatticeMesh& mesh);

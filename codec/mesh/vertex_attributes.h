@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertex attributes: the values other than positions that a mesh stores per vertex.
+// Vertex attributes: values that a mesh stores per vertex besides the position.
 //
-// To add an attribute, add a semantic, a column and a member of Row here; a lattice in
-// codec/format/lattice_attributes.h; and a predictor in codec/coding/attribute_model.h. All other
-// code handles attributes only through the operations below.
+// To add an attribute, add these parts:
+// - here: a semantic, a column and a member of Row;
+// - in codec/format/lattice_attributes.h: a lattice;
+// - in codec/coding/attribute_model.h: a predictor.
+//
+// All other code handles attributes only through the operations below.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +27,8 @@ enum class Semantic : std::uint8_t { kColour };
 
 inline constexpr std::size_t kSemantics = 1;
 
-// A list with at most one T per semantic, in ascending order of semantics. The list itself
-// allocates no heap memory.
+// A list with at most one T per semantic, in ascending order of semantics. The list allocates no
+// memory on the heap.
 template <class T>
 class PerSemantic {
  public:
@@ -60,12 +63,12 @@ class PerSemantic {
   std::size_t size_ = 0;
 };
 
-// The attributes of all vertices, one column per semantic. A column is empty or has one value per
-// vertex.
+// The attributes of all vertices, one column per semantic. A column is either empty or has one
+// value per vertex.
 struct VertexAttributes {
   std::vector<Colour> colours;
 
-  // The attributes of one vertex. Attributes whose column is empty have the value T{}.
+  // The attributes of one vertex. An attribute whose column is empty has the value T{}.
   struct Row {
     Colour colour{};
     std::strong_ordering operator<=>(const Row&) const = default;
@@ -87,20 +90,20 @@ struct VertexAttributes {
     for_each([&](Semantic, auto& column) { column[to] = column[from]; });
   }
 
-  // Appends a vertex with the values of vertex `v`.
+  // Appends a vertex that has the values of vertex `v`.
   void duplicate(std::size_t v) {
     for_each([&](Semantic, auto& column) { column.push_back(column[v]); });
   }
 
-  // Keeps the first `vertices` vertices and removes the others.
+  // Keeps the first `vertices` vertices and removes all others.
   void truncate(std::size_t vertices) {
     for_each([&](Semantic, auto& column) {
       column.erase(column.begin() + static_cast<std::ptrdiff_t>(vertices), column.end());
     });
   }
 
-  // Returns the attributes of a mesh with `vertices` vertices, whose i-th vertex has the values of
-  // vertex from(i).
+  // Returns the attributes for a new order of vertices. Vertex i of the result has the values of
+  // vertex from(i). The result has `vertices` vertices.
   template <class From>
   VertexAttributes gather(std::size_t vertices, From from) const {
     VertexAttributes out = *this;

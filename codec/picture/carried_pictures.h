@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects the pictures of a mesh as they are in their files, each only once.
+// Collects the encoded pictures of a mesh. Keeps each picture only once.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,12 @@ namespace vitrine::inline codec {
 
 class CarriedPictures {
  public:
-  // Adds a picture, or finds one with the same contents. Returns its index. `bytes` must outlive
-  // this object. Fails (kUnsupported) if the picture is not PNG, JPEG or WebP, and (kLimit) if the
-  // different spans of bytes that were added have more than `most_bytes` bytes together. The error
-  // has a fault and a next step; the caller adds the picture's name.
+  // Adds a picture and returns its index. If a picture with the same contents exists, returns that
+  // picture's index. `bytes` must outlive this object.
+  //
+  // Fails (kUnsupported) if the picture is not PNG, JPEG or WebP. Fails (kLimit) if all different
+  // spans added so far have more than `most_bytes` bytes together. The error has a fault and a next
+  // step; the caller adds the picture's name.
   Expected<std::uint32_t> add(std::string name, std::span<const std::uint8_t> bytes,
                               std::uint64_t most_bytes);
 
@@ -33,7 +35,7 @@ class CarriedPictures {
   std::vector<EncodedPicture> pictures_;
   std::map<Place, std::uint32_t> by_place_;
   std::map<Sha256, std::uint32_t> by_contents_;
-  std::uint64_t bytes_ = 0;  // of all places; bounds the time for hashing as well
+  std::uint64_t bytes_ = 0;  // total size of all different spans; also bounds the time for hashing
 };
 
 }  // namespace vitrine::inline codec

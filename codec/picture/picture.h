@@ -12,7 +12,7 @@ namespace vitrine::inline codec {
 
 struct Picture {
   std::uint32_t width = 0, height = 0;
-  // Rows from top to bottom, with four bytes per pixel: sRGB and opacity.
+  // Rows from top to bottom. A pixel has four bytes: red, green and blue in sRGB, and opacity.
   std::vector<std::uint8_t> pixels;
 
   Colour at(std::uint32_t x, std::uint32_t y) const {

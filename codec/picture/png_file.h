@@ -7,8 +7,8 @@
 
 namespace vitrine::inline codec {
 
-// Returns the bytes of the PNG file. Fails (kUnsupported) with the reason that libpng gives;
-// the caller adds the next step.
+// Returns the bytes of the PNG file. Fails (kUnsupported) with the error message of libpng; the
+// caller adds the next step.
 Expected<std::vector<std::uint8_t>> write_png(const Picture& picture);
 
 }  // namespace vitrine::inline codec

@@ -33,8 +33,8 @@ PngReader::~PngReader() {
   png_destroy_read_struct(&png_, &info_, nullptr);
 }
 
-// An error in libpng jumps back to setjmp(). So begin() and read_rows() have no objects with
-// destructors.
+// On an error, libpng jumps back to setjmp() without running destructors. begin() and read_rows()
+// therefore have no local objects with destructors.
 bool PngReader::read_header() {
   if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) return false;
   begin();
@@ -49,13 +49,13 @@ bool PngReader::read_pixels(std::uint8_t* pixels) {
 
 void PngReader::begin() {
   png_set_read_fn(png_, &left_, copy_to_libpng);
-  // skips all chunks except IHDR, PLTE, tRNS, IDAT and IEND
+  // Ignores all chunks except IHDR, PLTE, tRNS, IDAT and IEND.
   png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(png_, info_);
 }
 
 void PngReader::read_rows(std::uint8_t* pixels) {
-  png_set_expand(png_);  // palettes to colours, fewer bits to 8, and tRNS to opacity
+  png_set_expand(png_);  // converts palettes, 1 to 4 bits and tRNS to 8-bit RGBA
   png_set_scale_16(png_);
   png_set_gray_to_rgb(png_);
   png_set_add_alpha(png_, 0xFF, PNG_FILLER_AFTER);

@@ -23,9 +23,9 @@ void Planner::have(std::size_t chunk) {
     ++first_missing_;
   const ChunkInfo& info = manifest_->chunks[chunk];
   bytes_ += info.length;
-  // Estimates the faces from the level's average number of faces per new vertex. The exact number
-  // is unknown: a split adds two faces, or one at a boundary, and component insertions add any
-  // number. The average is exact once the level is complete.
+  // The exact number of faces is unknown: a split adds two faces, or one at a boundary, and a
+  // component insertion adds any number. The estimate uses the level's average number of faces per
+  // new vertex. It is exact once all chunks of the level are held.
   const double added = static_cast<double>(info.splits) + info.inserted;
   faces_ += added * faces_per_vertex(info.level);
 }
@@ -45,7 +45,7 @@ std::optional<std::size_t> Planner::next() const {
   if (const auto* view = std::get_if<View>(&want_)) {
     return ViewPlan(*manifest_, have_, *view).best(view->bytes - static_cast<double>(bytes_held()));
   }
-  // The file is in order of levels, so the first chunk not held can always be applied.
+  // Chunks are in order of levels in the file, so the first missing chunk can always be applied.
   const bool wanted = first_missing_ < have_.size() && is_wanted(first_missing_);
   return wanted ? std::optional(first_missing_) : std::nullopt;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses which chunk to fetch next. The same code plans in the server, in `vitrine decode` and, as
+// Chooses the chunk to fetch next. The same code runs in the server, in `vitrine decode` and, as
 // WebAssembly, in the browser. It uses no clocks and no I/O.
 #pragma once
 
@@ -13,25 +13,26 @@
 
 namespace vitrine::inline codec {
 
-// Asks for the finest state with at most this many triangles. The chunk that would exceed the
-// number is fetched completely and applied in part (Refiner::undo_to_faces).
+// Asks for the finest state with at most this many triangles. The last chunk may exceed the number;
+// it is fetched completely and applied in part (Refiner::undo_to_faces).
 struct WantTriangles {
   std::uint64_t triangles;
 };
-// Asks for the finest state of at most this many bytes, including header and base.
+// Asks for the finest state that takes at most this many bytes, including the header and the base
+// mesh.
 struct WantBytes {
   std::uint64_t bytes;
 };
-// Asks for the coarsest state with at most this max_error, model units.
+// Asks for the coarsest state whose max_error is at most this, in model units.
 struct WantError {
   double error;
 };
-// Asks for this level in all regions.
+// Asks for this level in all regions of the model.
 struct WantLevel {
   std::uint32_t level;
 };
-// The last alternative, View, asks for detail until no visible error exceeds the camera's limit.
-// The planner then prefers the chunks that remove the most error per byte.
+// A detail target. View asks for detail until no visible error exceeds the camera's limit; the
+// planner then prefers the chunks that remove the most error per byte.
 using Want = std::variant<WantTriangles, WantBytes, WantError, WantLevel, View>;
 
 class Planner {
@@ -39,16 +40,16 @@ class Planner {
   explicit Planner(const Manifest& manifest);
 
   void want(const Want& want);
-  void have(std::size_t chunk);  // marks a chunk as applied or requested
+  void have(std::size_t chunk);  // records a chunk as applied or requested
 
   // Returns the next chunk to fetch, or nullopt if the detail target is reached. All chunks that
-  // the returned chunk requires (see Refiner) have been given to have().
+  // must be applied before this one (see Refiner) were passed to have() earlier.
   std::optional<std::size_t> next() const;
 
-  // Returns the total size in bytes of the header, the base mesh and the chunks given to have().
+  // Returns the total size in bytes of the header, the base mesh and the chunks passed to have().
   std::uint64_t bytes_held() const { return bytes_; }
 
-  // Estimates the number of faces after the chunks given to have() are applied to the base mesh.
+  // Estimates the number of faces after all chunks passed to have() are applied to the base mesh.
   std::uint64_t faces_held() const;
 
  private:
@@ -58,8 +59,8 @@ class Planner {
   const Manifest* manifest_;
   Want want_;
   std::vector<std::uint8_t> have_;
-  // The members below can be computed from have_. They are stored because next() may run once for
-  // each of 300,000 chunks.
+  // The members below could be computed from have_. They are stored for speed, because next() may
+  // run once for each of 300,000 chunks.
   std::size_t first_missing_ = 0;
   std::uint64_t bytes_;
   double faces_;

@@ -8,13 +8,13 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kNearest = 1e-3;  // minimum depth, as a share of the box's diagonal
+constexpr double kNearest = 1e-3;  // minimum depth, relative to the diagonal of the box
 
 Vec3 column(const View& view, std::size_t k) {
   return {view.camera[4 * k], view.camera[4 * k + 1], view.camera[4 * k + 2]};
 }
 
-// Returns half the height of the viewport at distance 1.
+// Returns half the height of the view at distance 1 from the eye.
 double slope_of(const View& view) {
   return std::tan(view.field_of_view * 0.5 * kDegree);
 }
@@ -27,7 +27,7 @@ struct ModelBox {
   }
 };
 
-// An interval of the parameter t along a line.
+// An interval of the parameter t of a line.
 struct Stretch {
   double from = 0, to = std::numeric_limits<double>::infinity();
 
@@ -44,8 +44,8 @@ struct Stretch {
   bool is_empty() const { return from > to; }
 };
 
-// The view pyramid of a camera, with the eye as its apex. `inwards_` holds the inward normals of
-// its sides, `edges_` the directions of its edges.
+// The visible pyramid of a camera; its apex is the eye. `inwards_` holds the normals of its sides,
+// which point inwards. `edges_` holds the directions of its edges.
 class Sight {
  public:
   explicit Sight(const View& view) : eye_(column(view, 3)) {
@@ -76,8 +76,8 @@ class Sight {
   }
 
  private:
-  // Returns the depth of the nearest visible point of the segment from a to b, or infinity if no
-  // part of it is visible.
+  // Returns the depth of the nearest visible point on the segment from a to b, or infinity if no
+  // part of the segment is visible.
   double nearest(const Vec3& a, const Vec3& b) const {
     const Vec3 start = a - eye_, way = b - a;
     Stretch seen{0, 1};
@@ -86,8 +86,8 @@ class Sight {
     if (seen.is_empty()) return std::numeric_limits<double>::infinity();
     return std::min(dot(start + way * seen.from, ahead_), dot(start + way * seen.to, ahead_));
   }
-  // Returns the depth at which an edge of the pyramid enters the box, or infinity if it misses the
-  // box.
+  // Returns the depth at which an edge of the pyramid enters the box, or infinity if the edge
+  // misses the box.
   double nearest(const Vec3& edge, const ModelBox& box) const {
     const Vec3 above = eye_ - box.low, below = box.high - eye_;
     Stretch inside;

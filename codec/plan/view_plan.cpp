@@ -6,8 +6,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// The gain of a chunk is at least this share of the coarser level's error in pixels. Finer levels
-// can then be reached even if the error bound of a level equals that of the coarser level.
+// Minimum gain of a chunk, as a share of the coarser level's error in pixels. Without this minimum,
+// a level whose error bound equals that of the coarser level would block all finer levels.
 constexpr double kLeastGain = 0.01;
 
 }  // namespace
@@ -26,8 +26,8 @@ ViewPlan::ViewPlan(const Manifest& manifest, const std::vector<std::uint8_t>& ha
   }
 }
 
-// Returns by how many pixels the chunk reduces the visible error, or 0 if that error is within the
-// target.
+// Returns the number of pixels by which the chunk reduces the visible error. Returns 0 if that
+// error is already within the target.
 double ViewPlan::gain(std::size_t index) const {
   const ChunkInfo& chunk = manifest_.chunks[index];
   const std::size_t coarser = manifest_.find_chunk(chunk.level - 1, chunk.region);
@@ -39,7 +39,7 @@ double ViewPlan::gain(std::size_t index) const {
 }
 
 // Returns the chunk and its missing prerequisites, in an order in which they can be applied. The
-// list is incomplete if the step limit is reached.
+// list is incomplete if the step limit was reached.
 std::vector<std::size_t> ViewPlan::missing_for(std::size_t chunk) {
   ++call_;
   std::vector<std::size_t> missing;
@@ -67,8 +67,8 @@ void ViewPlan::require(std::size_t index, std::vector<std::size_t>& missing) {
   missing.push_back(index);
 }
 
-// Returns the first missing chunk in file order, or nullopt if it is longer than `bytes`. The file
-// is in order of levels, so this chunk can be applied.
+// Returns the first missing chunk of the file, or nullopt if it is longer than `bytes`. Chunks are
+// in order of levels, so the first missing chunk can always be applied.
 std::optional<std::size_t> ViewPlan::first_missing(double bytes) const {
   const auto at =
       static_cast<std::size_t>(std::find(have_.begin(), have_.end(), 0) - have_.begin());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the missing chunk that improves a camera's view most.
+// Chooses the missing chunk that improves a camera's view the most.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,21 @@ namespace vitrine::inline codec {
 
 class ViewPlan {
  public:
-  // The arguments must outlive this object. A chunk in `have` is ignored unless its region has all
+  // The arguments must outlive this object. A chunk in `have` counts only if its region has all
   // coarser levels.
   ViewPlan(const Manifest& manifest, const std::vector<std::uint8_t>& have, const View& view);
 
-  // Returns the chunk to fetch next, or nullopt if no visible error exceeds the view's limit or if
-  // every useful chunk, together with its missing prerequisites, is longer than `bytes`. Examines
-  // at most kMostSteps neighbours and chunks, which suffices for every encoded model. If a hostile
-  // header needs more, returns the best chunk found so far, or the first missing chunk of the file.
+  // Returns the chunk to fetch next. Returns nullopt if no visible error exceeds the view's limit,
+  // or if every useful chunk is longer than `bytes` together with its missing prerequisites.
+  //
+  // Examines at most kMostSteps neighbours and chunks. This is enough for every model that the
+  // encoder writes. If a hostile header needs more steps, returns the best chunk found so far, or
+  // the first missing chunk of the file.
   std::optional<std::size_t> best(double bytes);
 
  private:
-  // Maximum number of steps. Bounds the work for regions with long chains of prerequisites.
+  // Maximum number of steps. Bounds the work if a hostile header describes long chains of
+  // prerequisites.
   static constexpr std::uint64_t kMostSteps = 10'000'000;
 
   bool is_exhausted() const { return steps_ > kMostSteps; }
@@ -36,11 +39,11 @@ class ViewPlan {
   const Manifest& manifest_;
   const std::vector<std::uint8_t>& have_;
   const View& view_;
-  std::vector<std::uint32_t> leaf_level_;  // per leaf of the region tree: the level it has reached
+  std::vector<std::uint32_t> leaf_level_;  // current level of each leaf of the region tree
   // Per chunk: number of the last missing_for() call that visited it.
   std::vector<std::uint32_t> required_;
   std::uint32_t call_ = 0;
-  std::uint64_t steps_ = 0;  // number of steps of all missing_for() calls
+  std::uint64_t steps_ = 0;  // total number of steps in missing_for() calls
 };
 
 }  // namespace vitrine::inline codec

@@ -6,7 +6,7 @@ namespace {
 
 struct RingShape {
   Vec3 mean;
-  Vec3 area;  // area vector of the fan; its direction is the vertex normal
+  Vec3 area;  // area vector of the faces at v; parallel to the vertex normal
   bool closed = true;
 };
 
@@ -39,7 +39,7 @@ Vec3 display_shift(const MeshState& mesh, VertexId v) {
   const RingShape shape = shape_of(mesh, v);
   const double size = dot(shape.area, shape.area);
   if (!shape.closed || !(size > 0)) return {};
-  // `mean` is relative to the position of v.
+  // `shape.mean` is relative to the position of v.
   return shape.area * (-dot(shape.area, shape.mean) / size);
 }
 

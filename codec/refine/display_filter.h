@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display filter of coarse levels: p' = p + a n (n . (p - mean of the ring)), where n is the
-// vertex normal. It undoes the shrinkage of midpoint placement and needs no coded data.
+// The display filter of coarse levels. It displays p at p' = p + a n (n . (p - mean of the ring)),
+// where n is the vertex normal. The filter undoes the shrinkage of midpoint placement. It needs
+// only one coded number per level, `a`.
 #pragma once
 
 #include "codec/coding/mesh_state.h"
@@ -8,11 +9,12 @@
 
 namespace vitrine::inline codec {
 
-// Returns the displacement of v for a = 1, in lattice units. It is zero for vertices on a boundary.
+// Returns the displacement of v at filter strength a = 1, in lattice units. Returns zero if v is on
+// a boundary.
 Vec3 display_shift(const MeshState& mesh, VertexId v);
 
-// Returns the displayed position of v in lattice units. `at` describes the level that v has
-// reached. Vertices adjacent to another region are not filtered, so that the display of a region
+// Returns the displayed position of v in lattice units. `at` describes the level of v's region. If
+// v is adjacent to another region, the filter is not applied. The display of a region therefore
 // does not depend on the levels of its neighbours.
 Vec3 display_position(const MeshState& mesh, VertexId v, const LevelInfo& at);
 

@@ -14,19 +14,19 @@ struct Refiner::State {
   std::shared_ptr<const Manifest> manifest;
   MeshState mesh;
   std::vector<std::uint8_t> applied;
-  std::vector<std::uint8_t> leaf_level;  // per leaf of the region tree: the level reached
+  std::vector<std::uint8_t> leaf_level;  // current level of each leaf of the region tree
   LayerChange newest;                    // the change made by the last applied chunk
-  std::uint32_t faces = 0;               // surface faces, without those that close boundary loops
+  std::uint32_t faces = 0;               // real faces, without virtual ones
   bool is_usable = true;
 
   ChunkFrame frame(const ChunkInfo& chunk) const;
-  // Returns how many of the two faces added by a split of `newest` belong to the surface.
+  // Returns how many of the two faces added by a split of `newest` are real faces.
   std::uint32_t real_faces_of(std::size_t split) const {
     const std::uint32_t face = newest.splits.face(split);
     return (mesh.connectivity.is_real(face) ? 1 : 0) +
            (mesh.connectivity.is_real(face + 1) ? 1 : 0);
   }
-  // Undoes the last component or split of `newest`. Returns false if nothing is left to undo.
+  // Undoes the last component insertion or split of `newest`. Returns false if none is left.
   bool undo_one();
 };
 
@@ -53,6 +53,7 @@ bool Refiner::State::undo_one() {
   const std::size_t last = newest.splits.size() - 1;
   const Split split = newest.splits.splits[last];
   faces -= real_faces_of(last);
+  if (!mesh.wedges.empty()) mesh.wedges.undo(mesh.connectivity, split.v, newest.splits.w(last));
   mesh.connectivity.unsplit(split.v);
   mesh.disinherit();
   mesh.positions[split.v] = split.merged;
@@ -75,7 +76,7 @@ Expected<Refiner> Refiner::start(std::shared_ptr<const Manifest> manifest, const
   }
   auto mesh = MeshState::from_base(base, level.shift, manifest->tree.leaves());
   if (!mesh) return damaged_base(mesh.error().message);
-  // Component insertions may add loops later.
+  // The base mesh may have fewer loops than the finest level only if components are inserted later.
   const std::uint32_t loops = mesh->connectivity.loop_count();
   if (loops > manifest->loops || (loops < manifest->loops && !manifest->has_insertions)) {
     return damaged_base("its boundary loops are not those of the header");
@@ -175,6 +176,25 @@ const Segments<Vec3i>& Refiner::positions() const {
 }
 const AttributeColumns<Segments<Vec3i>>& Refiner::attributes() const {
   return state_->mesh.attributes;
+}
+
+const Wedges& Refiner::wedges() const {
+  return state_->mesh.wedges;
+}
+
+std::vector<std::array<TextureCoordinates, 3>> Refiner::texture_coordinates() const {
+  std::vector<std::array<TextureCoordinates, 3>> out;
+  const Connectivity& faces = state_->mesh.connectivity;
+  if (wedges().empty()) return out;
+  const auto side = static_cast<float>(state_->manifest->texture.side);
+  const auto at = [&](Corner c) -> TextureCoordinates {
+    const Vec2i uv = wedges()[wedges().of(c)].at;
+    return {static_cast<float>(uv.x) / side, static_cast<float>(uv.y) / side};
+  };
+  for (std::uint32_t f = 0; f < faces.face_count(); ++f) {
+    if (faces.is_real(f)) out.push_back({at(3 * f), at(3 * f + 1), at(3 * f + 2)});
+  }
+  return out;
 }
 
 Vec3 Refiner::display_position(VertexId v) const {

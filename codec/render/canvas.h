@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rasterises triangles: first finds the face that is visible at each sample, then shades each
+// Rasterises triangles. First finds the face that is visible at each sample. Then shades each
 // sample once and averages the samples of each pixel.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace vitrine::inline codec {
 
 inline constexpr std::uint32_t kSamples = 3;  // samples per pixel on each axis
 
-// Position of a sample, from the picture's top left corner.
+// Position of a sample, counted from the picture's top left corner.
 struct SamplePosition {
   std::uint32_t x, y;
 };
@@ -29,8 +29,8 @@ class Canvas {
         height_(height * kSamples),
         samples_(std::size_t{width_} * height_) {}
 
-  // Draws a face where it is nearer than the faces before it and `is_solid(Barycentric,
-  // SamplePosition)` is true. `face` must be below 2^32 - 1.
+  // Draws a face at the samples where `is_solid(Barycentric, SamplePosition)` is true and the face
+  // is nearer than all faces drawn before. `face` must be below 2^32 - 1.
   template <class IsSolid>
   void draw(std::uint32_t face, const ScreenTriangle& triangle, IsSolid is_solid) {
     if (triangle.signed_area() == 0) return;
@@ -42,8 +42,8 @@ class Canvas {
     }
   }
 
-  // Returns the picture on a transparent background. `shade(face, SamplePosition)` returns the
-  // linear light of a sample as a Vec3.
+  // Returns the picture, with a transparent background. `shade(face, SamplePosition)` returns a
+  // sample's colour in linear light, as a Vec3.
   template <class Shade>
   Picture develop(Shade shade) const {
     Picture picture{width_ / kSamples, height_ / kSamples, {}};

@@ -4,8 +4,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Returns the opacity from which a sample is visible. The order of the samples in a pixel spreads
-// the visible ones evenly.
+// Returns the smallest opacity at which this sample is visible. The thresholds are ordered such
+// that the visible samples of a pixel are evenly spread.
 double screen_door(SamplePosition at) {
   constexpr int kOrder[kSamples][kSamples] = {{0, 7, 3}, {6, 5, 2}, {4, 1, 8}};
   return (kOrder[at.y % kSamples][at.x % kSamples] + 0.5) / (kSamples * kSamples);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides at which samples a face with an opacity is visible.
+// Decides at which samples a partly transparent face is visible.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,10 @@
 
 namespace vitrine::inline codec {
 
-// With AlphaMode::kMask, a sample is visible if its opacity reaches the cutoff. With
-// AlphaMode::kBlend, the share of a pixel's samples that are visible is the opacity, rounded to a
-// multiple of 1 / kSamples^2 (screen-door transparency). So faces need no order.
+// With AlphaMode::kMask, a sample is visible if its opacity is at least the cutoff. With
+// AlphaMode::kBlend, the face is visible at a share of a pixel's samples (screen-door
+// transparency). This share equals the opacity, rounded to a multiple of 1 / kSamples^2. Faces
+// therefore need no sorting.
 class FaceOpacity {
  public:
   // `material` must outlive this object.

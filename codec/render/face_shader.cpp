@@ -19,7 +19,7 @@ Vec3 product(const Vec3& a, const Vec3& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-// Returns an edge of a triangle in view space, where y points up.
+// Returns the edge from corner 0 to `corner` in view space, where y points up.
 Vec3 edge(const ScreenTriangle& triangle, std::size_t corner) {
   const Vec3 e = triangle.corners()[corner] - triangle.corners()[0];
   return {e.x, -e.y, e.z};
@@ -37,8 +37,8 @@ FaceShader::FaceShader(const ShadedMesh& model, const ProjectedMesh& projected, 
   }
   if (model.textures == nullptr) return;
   material_ = &model.textures->material(face);
-  colour_map_ = model.textures->base_colour(face, triangle_);
-  normal_map_ = model.textures->normals(face, triangle_);
+  colour_map_ = model.textures->map(&Material::base_colour_map, face, triangle_);
+  normal_map_ = model.textures->map(&Material::normal_map, face, triangle_);
 }
 
 Vec3 FaceShader::base_colour(const Barycentric& weights) const {
@@ -51,8 +51,8 @@ Vec3 FaceShader::base_colour(const Barycentric& weights) const {
   return product(colour, {map[0], map[1], map[2]});
 }
 
-// Bends a unit normal as a normal map says. The tangents follow the texture coordinates across the
-// face, so they need not be stored ([Schueler06]).
+// Applies a normal map to a unit normal. The tangents are computed from the texture coordinates of
+// the face, so the mesh need not store tangents ([Schueler06]).
 Vec3 FaceShader::bent(const Vec3& normal, const Texel& texel) const {
   const auto& uv = normal_map_->corners();
   const Vec3 across_ac = cross(edge(triangle_, 2), normal);
@@ -61,7 +61,7 @@ Vec3 FaceShader::bent(const Vec3& normal, const Texel& texel) const {
   const Vec3 v = across_ac * (uv[1][1] - uv[0][1]) + across_ab * (uv[2][1] - uv[0][1]);
   const double longest = std::sqrt(std::max(dot(u, u), dot(v, v)));
   const double scale = longest > 0 ? material_->normal_scale / longest : 0;
-  // v grows downwards in the picture, and green points up.
+  // v increases downwards in the picture, but green points up.
   return u * (scale * (2 * texel[0] - 1)) - v * (scale * (2 * texel[1] - 1)) +
          normal * (2 * texel[2] - 1);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour of a face at any of its samples: base colour, normal and light.
+// Computes the colour of a face at any of its samples from base colour, normal and light.
 //
 // The base colour is the vertex colour times the material's factor and map. A mesh without vertex
-// colours is of stone if its materials are white or it has none. The surface is matt: the metallic,
-// roughness, occlusion and emission of a material have no effect.
+// colours gets the colour of stone, unless a material has a colour or a colour map. The surface is
+// matt: metallic, roughness, occlusion and emission have no effect.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ class FaceShader {
   FaceShader(const ShadedMesh& model, const ProjectedMesh& projected, const Light& light,
              std::uint32_t face);
 
-  // Returns the linear light that the eye sees at a sample inside the face.
+  // Returns the light that reaches the eye from a sample inside the face, in linear light.
   Vec3 at(SamplePosition at) const;
 
  private:
@@ -30,8 +30,8 @@ class FaceShader {
 
   const Light& light_;
   ScreenTriangle triangle_;
-  std::array<Vec3, 3> normals_, colours_;  // of the corners
-  const Material* material_ = nullptr;     // null if the mesh has none
+  std::array<Vec3, 3> normals_, colours_;  // one per corner
+  const Material* material_ = nullptr;     // null if the mesh has no materials
   std::optional<FaceTexture> colour_map_, normal_map_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parallel views of a model: the direction of the eye, and the part of the model that a picture
-// shows.
+// Parallel projections of a model: the direction to the eye, and the visible part of the model.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +8,18 @@
 
 namespace vitrine::inline codec {
 
-// The part of the model that a picture shows, and the size of the picture.
+// The visible part of the model, and the size of the picture.
 struct Framing {
-  Vec3 centre;                          // the point at the centre of the picture, model units
-  double pixel = 1;                     // length of a pixel's side, model units, > 0
+  Vec3 centre;                          // the point in the middle of the picture, model units
+  double pixel = 1;                     // width of a pixel in model units, > 0
   std::uint32_t width = 1, height = 1;  // size in pixels, each >= 1
-  // From the model to the eye; neither 0 nor vertical. The default is the initial view of the
-  // viewer page.
+  // Direction from the model to the eye; neither 0 nor vertical. The default is the initial view of
+  // the viewer page.
   Vec3 toward = {0.35, 0.15, 1};
 };
 
-// The axes of a view in model space: right and up in the picture, and towards the eye. They are
-// orthonormal, and the y axis of the model points up in the picture.
+// The axes of a view in model space: to the right, up in the picture, and towards the eye. They are
+// orthonormal. The model's y axis points up in the picture.
 class ViewAxes {
  public:
   explicit ViewAxes(const Vec3& toward);
@@ -32,8 +31,8 @@ class ViewAxes {
   Vec3 toward_, right_, up_;
 };
 
-// Returns a framing that shows the whole of `mesh` in the default direction with a narrow margin.
-// The longer side of the picture has `longest` pixels, the other at least half as many.
+// Returns a framing that shows all of `mesh` from the default direction, with a narrow margin. The
+// longer side of the picture has `longest` pixels, the other side at least half as many.
 Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest);
 
 }  // namespace vitrine::inline codec

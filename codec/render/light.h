@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light of all pictures: one lamp at the upper left behind the viewer, and ambient light from
-// the sky and the floor. It matches the initial view of the viewer page.
+// sky and floor. It is the same as in the initial view of the viewer page.
 #pragma once
 
 #include "codec/render/framing.h"
@@ -12,10 +12,11 @@ Vec3 linear_light(const Colour& srgb);
 
 class Light {
  public:
-  // The lamp moves with the eye; the sky stays above the model.
+  // The lamp moves with the eye. The sky stays above the model.
   explicit Light(const ViewAxes& axes);
 
-  // Returns the light on a surface with the unit normal `n` in view space; 1 is white.
+  // Returns the light that a surface with the unit normal `n` receives. `n` is in view space; 1 is
+  // white.
   Vec3 on(const Vec3& n) const;
 
  private:

@@ -22,7 +22,8 @@ const ByteValues& values_of_bytes(PictureCoding coding) {
   return coding == PictureCoding::kSrgb ? srgb : plain;
 }
 
-// Returns the sRGB byte of a value in [0, 1]. A table of 2^16 steps is accurate to 0.03 of a byte.
+// Returns the sRGB byte of a linear value in [0, 1]. The table has 2^16 entries, so that the error
+// is at most 0.03 before rounding.
 std::uint8_t srgb_byte(float value) {
   static const auto table = [] {
     std::vector<std::uint8_t> bytes(65536);
@@ -50,7 +51,8 @@ void append(std::vector<std::uint8_t>& pixels, const Texel& texel, PictureCoding
   pixels.insert(pixels.end(), {byte(0), byte(1), byte(2), byte(3)});
 }
 
-// The pixels along one axis that a pixel of the next level covers, and the shares of its area.
+// The pixels that one pixel of the next level covers along one axis, and the share of its length
+// that each of them takes.
 struct BoxFilter {
   std::uint32_t first, count;
   std::array<float, 3> weights;
@@ -59,7 +61,8 @@ struct BoxFilter {
 BoxFilter box_filter(std::uint32_t i, std::uint32_t size) {
   if (size == 1) return {0, 1, {1}};
   if (size % 2 == 0) return {2 * i, 2, {0.5f, 0.5f}};
-  const std::uint32_t half = size / 2;  // a pixel covers 2 + 1 / half pixels
+  // A new pixel covers 2 pixels, or 2 + 1 / half if `size` is odd.
+  const std::uint32_t half = size / 2;
   const auto share = [&](std::uint32_t parts) {
     return static_cast<float>(parts) / static_cast<float>(size);
   };

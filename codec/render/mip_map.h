@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture at falling resolutions, so that a texture seen from far does not alias [Williams83].
+// A picture at decreasing resolutions. Distant textures are then drawn without aliasing
+// [Williams83].
 #pragma once
 
 #include <array>
@@ -10,18 +11,18 @@
 
 namespace vitrine::inline codec {
 
-// The meaning of a picture's bytes: colours in sRGB, or values such as those of a normal map.
-// Opacity is always a value.
+// The meaning of a picture's bytes: colours in sRGB, or plain values as in a normal map. Opacity is
+// always a plain value.
 enum class PictureCoding { kSrgb, kValues };
 
-// Red, green, blue and opacity, each 0 to 1; colours in linear light.
+// Red, green, blue and opacity, each from 0 to 1. Colours are in linear light.
 using Texel = std::array<float, 4>;
 
 using ByteValues = std::array<float, 256>;
 
-// Level 0 is the picture itself. Each further level has half the width and height, rounded down and
-// at least 1, down to a single pixel. A pixel is the mean of the area that it covers in the level
-// before, in linear light, rounded to 8 bits, as graphics hardware stores it.
+// Level 0 is the picture itself. Each further level has half the width and height, rounded down but
+// at least 1. The last level has a single pixel. A pixel is the mean of the area that it covers in
+// the previous level, in linear light, rounded to 8 bits as in graphics hardware.
 class MipMap {
  public:
   // `picture` must have at least one pixel and outlive this object.
@@ -31,8 +32,8 @@ class MipMap {
   std::uint32_t width() const { return levels_[0]->width; }
   std::uint32_t height() const { return levels_[0]->height; }
 
-  // Returns the value at (u, v), interpolated between pixel centres and between the two levels
-  // around `level`. `level` is clamped to the levels that exist.
+  // Returns the value at (u, v), interpolated between pixel centres and between the two nearest
+  // levels. `level` is clamped to the existing levels.
   Texel at(const TextureCoordinates& uv, double level, Wrap wrap_u, Wrap wrap_v) const;
 
   // Returns the value of the pixel of level 0 that contains (u, v).
@@ -42,7 +43,7 @@ class MipMap {
   Texel interpolated(std::size_t level, const TextureCoordinates& uv, Wrap wrap_u,
                      Wrap wrap_v) const;
 
-  const ByteValues* colours_;           // values of the bytes of red, green and blue
+  const ByteValues* colours_;           // maps bytes of red, green and blue to values
   std::vector<Picture> smaller_;        // levels 1 and higher
   std::vector<const Picture*> levels_;  // all levels
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vertices of a mesh in a picture.
+// The vertices of a mesh, projected to a picture.
 #pragma once
 
 #include "codec/render/framing.h"
@@ -16,7 +16,7 @@ class ProjectedMesh {
   ScreenTriangle triangle(const Triangle& face) const {
     return ScreenTriangle({positions_[face[0]], positions_[face[1]], positions_[face[2]]});
   }
-  // Unit vector in view space.
+  // Returns the unit normal of a vertex in view space.
   const Vec3& normal(std::uint32_t vertex) const { return normals_[vertex]; }
 
  private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/render/render.h"
 
+#include "codec/mesh/vertex_normals.h"
 #include "codec/render/canvas.h"
 #include "codec/render/face_opacity.h"
 #include "codec/render/face_shader.h"
-#include "codec/render/vertex_normals.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -19,9 +19,9 @@ void draw(Canvas& canvas, const ShadedMesh& model, const ProjectedMesh& projecte
     if (is_opaque(face)) {
       canvas.draw(face, triangle, [](const Barycentric&, SamplePosition) { return true; });
     } else {
-      canvas.draw(
-          face, triangle,
-          FaceOpacity(model.textures->material(face), model.textures->base_colour(face, triangle)));
+      canvas.draw(face, triangle,
+                  FaceOpacity(model.textures->material(face),
+                              model.textures->map(&Material::base_colour_map, face, triangle)));
     }
   }
 }
@@ -34,7 +34,8 @@ Picture render(const ShadedMesh& model, const Framing& frame) {
   const ProjectedMesh projected(model, frame, axes);
   Canvas canvas(frame.width, frame.height);
   draw(canvas, model, projected);
-  std::optional<FaceShader> shader;  // of the latest face: neighbouring samples share it
+  // Shader of the last face, because neighbouring samples often lie on the same face.
+  std::optional<FaceShader> shader;
   std::uint32_t latest = 0;
   return canvas.develop([&](std::uint32_t face, SamplePosition at) {
     if (!shader || face != latest) shader.emplace(model, projected, light, face);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renders a picture of a mesh on the CPU, with a parallel projection.
+// Renders a mesh on the CPU, in parallel projection.
 #pragma once
 
 #include "codec/picture/picture.h"
@@ -8,9 +8,9 @@
 
 namespace vitrine::inline codec {
 
-// Renders a model with smooth shading on a transparent background, which has the opacity 0 and the
-// colour black; the colour of a pixel that is partly covered is that of the covered part. Faces are
-// visible from both sides. Positions must be finite and face indices in range.
+// Renders a model with smooth shading. The background is transparent: opacity 0 and colour black. A
+// partly covered pixel has the colour of its covered part. Both sides of faces are visible.
+// Positions must be finite and face indices in range.
 Picture render(const ShadedMesh& model, const Framing& frame);
 
 // Renders a mesh without textures.

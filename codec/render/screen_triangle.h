@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A triangle in a picture.
+// A triangle projected to a picture.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace vitrine::inline codec {
 
-// Weights of the three corners at a point of a triangle. They add up to 1.
+// Barycentric coordinates: the weights of the three corners at a point. They add up to 1.
 struct Barycentric {
   double u, v, w;
 
@@ -22,8 +22,8 @@ inline Vec3 mix(const std::array<Vec3, 3>& corners, const Barycentric& at) {
   return corners[0] * at.u + corners[1] * at.v + corners[2] * at.w;
 }
 
-// A triangle whose corners are given in samples: x to the right and y down from the picture's top
-// left corner, z towards the eye.
+// A triangle whose corners are given in units of samples. x points right and y down, both from the
+// picture's top left corner. z points towards the eye.
 class ScreenTriangle {
  public:
   struct Range {
@@ -34,12 +34,12 @@ class ScreenTriangle {
       : corners_(corners), area_(area(corners[0], corners[1], corners[2])) {}
 
   const std::array<Vec3, 3>& corners() const { return corners_; }
-  // Twice the area in the picture, negative if the corners run counter-clockwise.
+  // Twice the triangle's area in the picture. Negative if the corners run counter-clockwise.
   double signed_area() const { return area_; }
-  // Whether the outer side faces the eye.
+  // Whether the triangle's outer side faces the eye.
   bool is_front() const { return area_ < 0; }
 
-  // Returns the weights at the centre of a sample. The area must not be 0.
+  // Returns the corner weights at the centre of a sample. The area must not be 0.
   Barycentric at(std::uint32_t x, std::uint32_t y) const {
     const Vec3 p{x + 0.5, y + 0.5, 0};
     const double u = area(p, corners_[1], corners_[2]) / area_;
@@ -47,7 +47,8 @@ class ScreenTriangle {
     return {u, v, 1 - u - v};
   }
 
-  // Return the range of samples, of `size`, whose centres may lie in the triangle.
+  // Returns the range of samples whose centres may lie in the triangle, along one axis that has
+  // `size` samples.
   Range columns(std::uint32_t size) const {
     return range(corners_[0].x, corners_[1].x, corners_[2].x, size);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh with all that its pictures need and that does not depend on the view.
+// A mesh and everything that rendering needs, except what depends on the view.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace vitrine::inline codec {
 
 struct ShadedMesh {
   const TriangleMesh& mesh;
-  std::vector<Vec3> normals;           // per vertex, of any length (vertex_normals.h)
+  std::vector<Vec3> normals;           // per vertex, not normalised (vertex_normals.h)
   const Textures* textures = nullptr;  // null if the mesh has no materials
 };
 

@@ -19,8 +19,8 @@ Corners transformed(const Corners& corners, const TextureTransform& transform) {
   return result;
 }
 
-// Returns the length, in pixels of the texture, of the longer of two steps: one sample to the right
-// and one sample down.
+// Returns how far a step of one sample moves in the texture, in pixels: the larger of the distances
+// for a step to the right and a step down.
 double longest_step(const MipMap& mip_map, const Corners& uv, const ScreenTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners();
   const Vec3 ab = b - a, ac = c - a;
@@ -61,11 +61,13 @@ Textures::Textures(Texturing texturing, std::vector<Picture> pictures)
     : texturing_(std::move(texturing)),
       pictures_(std::move(pictures)),
       colours_(pictures_.size()),
-      normals_(pictures_.size()),
+      values_(pictures_.size()),
       are_white_(std::ranges::all_of(texturing_.materials, is_white)) {
   for (const Material& material : texturing_.materials) {
-    add(colours_, material.base_colour_map, PictureCoding::kSrgb);
-    add(normals_, material.normal_map, PictureCoding::kValues);
+    for (const MapOfMaterial map : kMapsOfMaterial) {
+      if (is_colour(map)) add(colours_, material.*map, PictureCoding::kSrgb);
+      if (!is_colour(map)) add(values_, material.*map, PictureCoding::kValues);
+    }
   }
 }
 
@@ -75,23 +77,13 @@ void Textures::add(MipMaps& mip_maps, const std::optional<TextureMap>& map, Pict
   if (!picture.pixels.empty()) mip_maps[map->picture].emplace(picture, coding);
 }
 
-std::optional<FaceTexture> Textures::texture(const MipMaps& mip_maps,
-                                             const std::optional<TextureMap>& map,
-                                             std::uint32_t face,
-                                             const ScreenTriangle& triangle) const {
+std::optional<FaceTexture> Textures::map(MapOfMaterial of, std::uint32_t face,
+                                         const ScreenTriangle& triangle) const {
+  const std::optional<TextureMap>& map = material(face).*of;
+  const MipMaps& mip_maps = is_colour(of) ? colours_ : values_;
   if (!map || !mip_maps[map->picture]) return std::nullopt;
   return FaceTexture(*mip_maps[map->picture], *map, texturing_.coordinates[map->coordinates][face],
                      triangle);
-}
-
-std::optional<FaceTexture> Textures::base_colour(std::uint32_t face,
-                                                 const ScreenTriangle& triangle) const {
-  return texture(colours_, material(face).base_colour_map, face, triangle);
-}
-
-std::optional<FaceTexture> Textures::normals(std::uint32_t face,
-                                             const ScreenTriangle& triangle) const {
-  return texture(normals_, material(face).normal_map, face, triangle);
 }
 
 }  // namespace vitrine::inline codec

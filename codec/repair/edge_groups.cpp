@@ -5,8 +5,8 @@
 
 namespace vitrine::inline codec {
 
-// Sorts the edges by their smaller vertex with counting sort, then the few edges of each vertex by
-// their larger vertex.
+// Sorts the edges by their smaller vertex, using counting sort. Then sorts the few edges of each
+// vertex by their larger vertex.
 EdgeGroups::EdgeGroups(std::size_t vertex_count, std::span<const Triangle> faces)
     : begin_(vertex_count + 1, 0), sides_(3 * faces.size()) {
   for (const auto& [a, b, c] : faces) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Groups the faces at each edge. An edge may have any number of faces, in any direction.
+// Groups the faces at each edge. An edge may have any number of faces, with any orientations.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace vitrine::inline codec {
 
-// A face at an edge, stored with the edge's smaller vertex. Corner k (0 to 2) of face f has the
-// number 3f + k.
+// One face at an edge. The entry is stored under the edge's smaller vertex. Corner k (0 to 2) of
+// face f has the number 3f + k.
 struct EdgeSide {
   std::uint32_t high;    // the edge's larger vertex
-  std::uint32_t corner;  // number of the corner that lies opposite to the edge in the face
+  std::uint32_t corner;  // number of the face's corner opposite to the edge
 };
 
 class EdgeGroups {
@@ -22,7 +22,7 @@ class EdgeGroups {
   EdgeGroups(std::size_t vertex_count, std::span<const Triangle> faces);
 
   // Calls visit(low, sides) for each edge, in ascending order of the edges' vertices. `low` is the
-  // smaller vertex of the edge. `sides` has one entry per face, in ascending order of the faces.
+  // edge's smaller vertex. `sides` has one entry per face, in ascending order of faces.
   template <class Visit>
   void for_each(Visit visit) const {
     for (std::uint32_t low = 0; low + 1 < begin_.size(); ++low) {
@@ -35,11 +35,13 @@ class EdgeGroups {
   }
 
  private:
-  std::vector<std::uint32_t> begin_;  // per smaller vertex: index of its first entry in sides_
+  // Per vertex v: index in sides_ of the first edge whose smaller vertex is v.
+  std::vector<std::uint32_t> begin_;
   std::vector<EdgeSide> sides_;
 };
 
-// Whether the face of `corner` runs from the smaller to the larger vertex of the opposite edge.
+// Whether the face runs from the smaller to the larger vertex of the edge that is opposite to
+// `corner`.
 inline bool runs_upwards(std::span<const Triangle> faces, std::uint32_t corner) {
   const Triangle& face = faces[corner / 3];
   const std::uint32_t k = corner % 3;

@@ -7,7 +7,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// A face at an edge, and the angle at which it leaves the edge.
+// A face at an edge, and its angle around the edge.
 struct Leaf {
   double angle;
   bool is_upwards;
@@ -15,8 +15,8 @@ struct Leaf {
   std::uint32_t corner;
 };
 
-// Computes the angles of the faces around the axis from `low` to the larger vertex. Angles increase
-// counter-clockwise, seen from the larger vertex. Their zero is arbitrary.
+// Computes the angle of each face around the edge from `low` to its larger vertex. Angles increase
+// counter-clockwise as seen from the larger vertex. The direction of angle 0 is arbitrary.
 std::vector<Leaf> leaves_of(std::span<const Vec3> positions, std::span<const Triangle> faces,
                             std::uint32_t low, std::span<const EdgeSide> sides) {
   const Vec3 axis = positions[sides[0].high] - positions[low];
@@ -38,10 +38,9 @@ void pair(std::vector<std::uint32_t>& across, std::uint32_t a, std::uint32_t b) 
 }
 
 // Pairs the faces around an edge like brackets. The solid lies clockwise of a face that runs
-// upwards. Each upward face therefore opens a bracket, which the next downward face in clockwise
-// order closes. Faces are visited twice around, because a bracket may extend past the last face.
-// Where angles are equal, downward faces come first, so that the two sides of a thin sheet are not
-// paired.
+// upwards. Each upward face therefore opens a bracket, and the next downward face in clockwise
+// order closes it. The loop goes around twice, because a bracket may extend past the last face. At
+// equal angles, downward faces come first, so that the two sides of a thin sheet are not paired.
 void pair_fan(std::vector<Leaf> leaves, std::vector<std::uint32_t>& across) {
   std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
     if (a.angle != b.angle) return a.angle > b.angle;

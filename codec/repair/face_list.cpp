@@ -33,7 +33,8 @@ void FaceList::use_material(std::uint16_t material) {
     runs_.back() = run;
     return;
   }
-  // Grows by an eighth: if every face begins a run, doubling needs more memory than all vertices.
+  // Grows by an eighth. If every face began a new run, doubling would take more memory than all
+  // vertices.
   if (runs_.size() == runs_.capacity()) runs_.reserve(runs_.size() + runs_.size() / 8 + 4);
   runs_.push_back(run);
 }
@@ -53,16 +54,17 @@ void FaceList::reserve_for_polygons() {
   coordinates.resize(triangles.size());
 }
 
-std::size_t FaceList::cut_polygons(std::span<const Vec3> positions) {
+void FaceList::cut_polygons(std::span<const Vec3> positions) {
   if (!runs_.empty()) materials_ = expanded_runs();
   runs_ = {};
   reserve_for_polygons();
   const std::span<const std::uint32_t> all = polygon_corners_;
   std::vector<Triangle> parts;
-  std::size_t begin = 0, fans = 0;
+  std::size_t begin = 0;
   for (const std::size_t end : polygon_ends_) {
     const auto corners = all.subspan(begin, end - begin);
     parts.clear();
+    parts.reserve(corners.size() - 2);
     triangulate(positions, corners, parts);
     for (const auto& [a, b, c] : parts) {
       triangles.push_back({corners[a], corners[b], corners[c]});
@@ -70,13 +72,11 @@ std::size_t FaceList::cut_polygons(std::span<const Vec3> positions) {
       const TextureCoordinates* at = &polygon_coordinates_[begin];
       coordinates.push_back({at[a], at[b], at[c]});
     }
-    fans += corners.size() > kMostClippedCorners ? 1 : 0;
     begin = end;
   }
   polygon_corners_ = {};
   polygon_coordinates_ = {};
   polygon_ends_ = {};
-  return fans;
 }
 
 std::vector<std::uint16_t> FaceList::expanded_runs() const {

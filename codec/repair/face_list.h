@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The faces of a mesh as a file has them: with any number of corners, and optionally with materials
-// and texture coordinates per corner.
+// The faces of a mesh as in its file: with any number of corners, and optionally with materials and
+// with texture coordinates per corner.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace vitrine::inline codec {
 class FaceList {
  public:
   std::vector<Triangle> triangles;  // complete after cut_polygons()
-  // Per triangle: the coordinates of its corners. Empty if no face has coordinates. A face that was
-  // added without coordinates has (0, 0).
+  // Per triangle: the texture coordinates of its corners. Empty if no face has coordinates. A face
+  // that was added without coordinates has (0, 0) at each corner.
   std::vector<std::array<TextureCoordinates, 3>> coordinates;
 
   bool empty() const { return triangles.empty() && polygon_ends_.empty(); }
@@ -31,21 +31,20 @@ class FaceList {
   // Adds a face with at least three corners. `at_corners` has one entry per corner, or is empty.
   void add(std::span<const std::uint32_t> corners, std::span<const TextureCoordinates> at_corners);
 
-  // Sets the material of the faces that are added from now on. Before the first call it is 0.
+  // Sets the material of all faces added after this call. The initial material is 0.
   void use_material(std::uint16_t material);
 
-  // Removes materials and coordinates. Call it before cut_polygons().
+  // Removes materials and texture coordinates. Call this before cut_polygons().
   void drop_texturing();
 
-  // Cuts the faces with more than three corners into triangles, which follow the other triangles.
-  // Returns the number of faces with more than kMostClippedCorners corners.
-  std::size_t cut_polygons(std::span<const Vec3> positions);
+  // Cuts each face with more than three corners into triangles and appends these to `triangles`.
+  void cut_polygons(std::span<const Vec3> positions);
 
-  // Returns the material of each triangle. Call it after cut_polygons().
+  // Returns the material of each triangle. Call this after cut_polygons().
   std::vector<std::uint16_t> take_materials();
 
  private:
-  // The faces from this triangle and this polygon on have this material, up to the next run.
+  // A run of faces with the same material. The run starts at this triangle and this polygon.
   struct MaterialRun {
     std::size_t triangle, polygon;
     std::uint16_t material;
@@ -57,9 +56,9 @@ class FaceList {
   std::vector<std::uint16_t> expanded_runs() const;
 
   std::vector<std::uint32_t> polygon_corners_;           // corners of all polygons
-  std::vector<TextureCoordinates> polygon_coordinates_;  // per corner in polygon_corners_, or empty
-  std::vector<std::size_t> polygon_ends_;  // per polygon: end of its corners in polygon_corners_
-  std::vector<MaterialRun> runs_;          // ascending; empty if all faces have material 0
+  std::vector<TextureCoordinates> polygon_coordinates_;  // per polygon_corners_ entry, or empty
+  std::vector<std::size_t> polygon_ends_;  // per polygon: end index in polygon_corners_
+  std::vector<MaterialRun> runs_;          // in ascending order; empty if all materials are 0
   std::vector<std::uint16_t> materials_;   // per triangle; empty if all are 0
 };
 

@@ -7,7 +7,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Removes the marked entries of a column that has one per face, or none.
+// Removes the marked entries of a column that has one entry per face. An empty column stays empty.
 template <class T>
 void erase_marked(std::vector<T>& column, const std::vector<bool>& marked) {
   std::size_t kept = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the texturing of a mesh in step with its faces.
+// Applies changes of a mesh's faces to the mesh's texturing as well.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,22 @@
 
 namespace vitrine::inline codec {
 
-// Returns for each face the coordinates of its corners. Vertices beyond the end of `of_vertices`
+// Returns the texture coordinates of each face's corners. Vertices beyond the end of `of_vertices`
 // have (0, 0).
 std::vector<std::array<TextureCoordinates, 3>> coordinates_of_corners(
     std::span<const Triangle> faces, std::span<const TextureCoordinates> of_vertices);
 
-// Gives every set that a map uses one entry per face, and removes the other sets.
+// Gives each set of texture coordinates that a map uses one entry per face. Removes all other sets.
 void fit_coordinate_sets(Texturing& texturing);
 
-// Replaces values that are not finite by 0. Returns the number of corners that had one.
+// Replaces coordinates that are not finite by 0. Returns the number of corners that had such a
+// coordinate.
 std::uint64_t make_finite(Texturing& texturing);
 
-// Removes the marked faces. The other faces keep their order.
+// Removes the entries of the marked faces. The other faces keep their order.
 void erase_faces(Texturing& texturing, const std::vector<bool>& marked);
 
-// Follows a face whose second and third corner have been exchanged.
+// Swaps the entries of the face's second and third corner, after these were swapped in the mesh.
 void reverse_face(Texturing& texturing, std::size_t face);
 
 }  // namespace vitrine::inline codec

@@ -23,8 +23,8 @@ constexpr std::uint32_t prev(std::uint32_t c) {
   return c % 3 == 0 ? c + 2 : c - 1;
 }
 
-// Marks the corners in the fan of corner c. Walks in both directions until it reaches a border or c
-// itself.
+// Marks all corners in the fan of corner c. Walks from c in both directions until it reaches a
+// border or c itself.
 void visit_fan(std::uint32_t c, std::span<const std::uint32_t> across, std::vector<bool>& seen) {
   for (std::uint32_t at = c; !seen[at];) {
     seen[at] = true;
@@ -53,7 +53,7 @@ std::vector<bool> vertices_with_several_fans(std::uint32_t vertex_count,
   return several;
 }
 
-// A half-edge mesh of the faces around the vertices that have several fans.
+// A half-edge mesh of all faces at vertices that have several fans.
 class SharedFans {
  public:
   SharedFans(std::uint32_t vertex_count, std::span<Triangle> faces,
@@ -66,8 +66,8 @@ class SharedFans {
     close_borders();
   }
 
-  // Gives every fan of a vertex except the first one a new vertex. Returns the original vertex of
-  // each new one.
+  // The first fan of each vertex keeps the vertex; every other fan gets a new vertex. Returns, for
+  // each new vertex, the original vertex.
   std::vector<std::uint32_t> split() {
     std::vector<std::uint32_t> origins;
     const std::size_t named = kernel_.n_vertices();
@@ -81,8 +81,8 @@ class SharedFans {
       const VertexHandle owner = first || !has_several_fans_[origin] ? v : kernel_.new_vertex();
       if (owner != v) origins.push_back(origin), global_.push_back(next_copy_++);
       kernel_.set_halfedge_handle(owner, start);
-      // Several fans in this part may be one fan of the whole mesh, if they reach the rim of the
-      // part.
+      // A vertex may have several fans here but only one in the whole mesh, if the fans reach the
+      // rim of this part. Such a vertex is not split.
       for (const HalfedgeHandle out : kernel_.voh_range(owner)) {
         seen[out.idx()] = true;
         kernel_.set_vertex_handle(kernel_.opposite_halfedge_handle(out), owner);
@@ -124,8 +124,8 @@ class SharedFans {
     members_.push_back(f);
   }
 
-  // Returns the half-edge opposite to corner k: the twin of the partner's half-edge, or one of a
-  // new edge.
+  // Returns the half-edge opposite to corner k. It is the twin of the partner's half-edge, or else
+  // belongs to a new edge.
   HalfedgeHandle half_edge(std::uint32_t f, std::uint32_t k) {
     const std::uint32_t partner = across_[3 * f + k];
     if (partner != kNoPartner && partner < 3 * f) {
@@ -138,7 +138,7 @@ class SharedFans {
     return kernel_.new_edge(local(faces_[f][(k + 1) % 3]), local(faces_[f][(k + 2) % 3]));
   }
 
-  // Links each border half-edge to the next border half-edge of its fan.
+  // Links each border half-edge to the next border half-edge of the same fan.
   void close_borders() {
     for (const HalfedgeHandle border : kernel_.halfedges()) {
       if (!kernel_.is_boundary(border)) continue;
@@ -153,10 +153,10 @@ class SharedFans {
   Kernel kernel_;
   std::span<Triangle> faces_;
   std::span<const std::uint32_t> across_;
-  std::vector<int> local_;              // per vertex: its kernel vertex, or -1
-  std::vector<std::uint32_t> global_;   // per kernel vertex: its vertex
-  std::vector<std::uint32_t> members_;  // faces of the part, ascending
-  std::vector<HalfedgeHandle> edge_;    // per corner of a face in members_: the opposite half-edge
+  std::vector<int> local_;              // vertex of the mesh -> vertex in kernel_, or -1
+  std::vector<std::uint32_t> global_;   // vertex in kernel_ -> vertex of the mesh
+  std::vector<std::uint32_t> members_;  // faces in kernel_, in ascending order
+  std::vector<HalfedgeHandle> edge_;    // per corner of members_: the opposite half-edge
   const std::vector<bool>& has_several_fans_;
   std::uint32_t next_copy_ = static_cast<std::uint32_t>(local_.size());
 };

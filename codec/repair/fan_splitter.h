@@ -10,11 +10,11 @@
 
 namespace vitrine::inline codec {
 
-// Gives every fan of a vertex except the first one a copy of the vertex. Two faces at a vertex are
-// in the same fan if one can be reached from the other through paired edges at that vertex
-// (edge_pairs.h). Rewrites `faces`. Returns the original vertex of each copy; copies are numbered
-// from `vertex_count` on. Uses OpenMesh's half-edge kernel for the faces around vertices with
-// several fans only.
+// The first fan of each vertex keeps the vertex; every other fan gets a copy of it. Two faces at a
+// vertex are in the same fan if one can be reached from the other through paired edges
+// (edge_pairs.h) at that vertex. Rewrites `faces`. Returns the original vertex of each copy. Copies
+// are numbered from `vertex_count` on. Uses OpenMesh's half-edge kernel, but only for faces around
+// vertices with several fans.
 std::vector<std::uint32_t> split_fans(std::uint32_t vertex_count, std::span<Triangle> faces,
                                       std::span<const std::uint32_t> across);
 

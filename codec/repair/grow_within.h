@@ -8,9 +8,9 @@
 
 namespace vitrine::inline codec {
 
-// Makes room for `size` elements, which must be at most `most`. The capacity doubles, as with
-// push_back(), but stays within `most`. So many calls take linear time, and no memory lies unused
-// beyond what the file can fill.
+// Reserves room for `size` elements, which must not exceed `most`. The capacity doubles, as with
+// push_back(), but never exceeds `most`. Many calls therefore take linear time, and the vector
+// never gets larger than the file's data can require.
 template <class T>
 void grow_within(std::vector<T>& column, std::size_t size, std::size_t most) {
   if (size > column.capacity())

@@ -10,13 +10,13 @@
 
 namespace vitrine::inline codec {
 
-// The mesh of a file, with polygons cut into triangles. Every index is in range. Every position
-// that a face uses is finite. The topology is arbitrary (see repair.h).
+// The mesh of a file, with polygons cut into triangles. Every index is in range. Positions used by
+// faces are finite. The mesh need not be a manifold (see repair.h).
 struct ImportedMesh {
   TriangleMesh mesh;                 // in model units
-  std::string unit;                  // name of one of kLengthUnits; empty if unknown
-  std::vector<std::string> repairs;  // one line for each kind of part that was removed or changed
-  Texturing texturing;  // of the faces of `mesh`; its pictures are also baked into colours
+  std::string unit;                  // a name in kLengthUnits, or empty if unknown
+  std::vector<std::string> repairs;  // one line for each kind of removal or change
+  Texturing texturing;  // texturing of `mesh`; its pictures also determine the vertex colours
 };
 
 }  // namespace vitrine::inline codec

@@ -10,12 +10,12 @@
 
 namespace vitrine::inline codec {
 
-// Removes the vertices that are not in `keep` and renumbers the faces. No face may use a removed
-// vertex. Returns the number of removed vertices.
+// Removes the vertices that are not marked in `keep`, and renumbers the vertices in `faces`. No
+// face may use a removed vertex. Returns the number of removed vertices.
 std::size_t keep_vertices(const std::vector<bool>& keep, std::vector<Vec3>& positions,
                           VertexAttributes& attributes, std::span<Triangle> faces);
 
-// Returns for each of `count` vertices whether a face uses it.
+// Returns, for each of `count` vertices, whether a face uses it.
 std::vector<bool> used_vertices(std::size_t count, std::span<const Triangle> faces);
 
 }  // namespace vitrine::inline codec

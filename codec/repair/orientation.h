@@ -11,10 +11,10 @@
 
 namespace vitrine::inline codec {
 
-// Gives all faces of each patch the orientation of the majority of the patch. A patch consists of
-// faces that are connected by edges with exactly two faces. Patches whose faces already agree do
-// not change. `groups` holds the edges of `faces`; it is not updated for reversed faces. Returns
-// the reversed faces in ascending order. Their second and third corner have been exchanged.
+// Gives all faces of each patch the orientation of the patch's majority. A patch consists of faces
+// connected by edges with exactly two faces. Patches whose faces already agree do not change.
+// `groups` holds the edges of `faces` and is not updated. Returns the reversed faces in ascending
+// order. Their second and third corner were swapped.
 std::vector<std::uint32_t> orient_patches(std::span<Triangle> faces, const EdgeGroups& groups);
 
 }  // namespace vitrine::inline codec

@@ -7,14 +7,13 @@
 #include "codec/repair/face_texturing.h"
 #include "codec/repair/keep_vertices.h"
 #include "codec/repair/seams.h"
-#include "codec/repair/triangulate.h"
 #include "codec/repair/weld.h"
 
 namespace vitrine::inline codec {
 namespace {
 
 // Larger coordinates could make squares or cross products infinite. The limit is slightly above
-// 1e30, because 1e30 rounded to single precision is, too.
+// 1e30, because 1e30 rounds up in single precision.
 constexpr double kLargestCoordinate = 1.0000001e30;
 
 }  // namespace
@@ -51,7 +50,7 @@ void RawMesh::note_index(std::uint32_t index, std::uint64_t line) {
   max_index_line_ = line;
 }
 
-// Returns a text such as "vertex 7 (counted from 1)".
+// Returns a description such as "vertex 7 (counted from 1)".
 std::string RawMesh::numbered(std::uint32_t vertex) const {
   return "vertex " + std::to_string(std::uint64_t{vertex} + first_number) + " (counted from " +
          std::to_string(first_number) + ')';
@@ -100,16 +99,8 @@ Expected<void> RawMesh::check_counts(const Limits& limits) const {
   return {};
 }
 
-void RawMesh::cut_polygons() {
-  if (materials.empty()) faces_.drop_texturing();
-  const std::size_t fans = faces_.cut_polygons(positions);
-  if (fans == 0) return;
-  repairs.push_back(counted(fans, "polygon") + " of more than " +
-                    std::to_string(kMostClippedCorners) +
-                    " corners taken as convex and cut into fans");
-}
-
-// Returns the texturing of the triangles. The vertices must be those that the reader added.
+// Returns the texturing of the triangles. Call this while the vertices are still as the reader
+// added them.
 Texturing RawMesh::take_texturing() {
   Texturing out;
   if (materials.empty()) return out;
@@ -172,7 +163,8 @@ void RawMesh::close_seams() {
 
 Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
   if (auto ok = check_counts(limits); !ok) return tl::unexpected(ok.error());
-  cut_polygons();
+  if (materials.empty()) faces_.drop_texturing();
+  faces_.cut_polygons(positions);
   if (faces_.triangles.size() > limits.faces) {
     return fail(ErrorCode::kLimit, "the mesh has " + counted(faces_.triangles.size(), "triangle") +
                                        ", more than this installation accepts; simplify it first");

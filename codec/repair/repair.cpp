@@ -16,7 +16,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Counts the faces affected by one kind of repair, and stores the smallest number of such a face.
+// Counts the faces affected by one kind of repair. Stores the lowest number of an affected face.
 struct Tally {
   std::uint64_t count = 0, first = 0;
 
@@ -32,8 +32,8 @@ bool repeats_vertex(const Triangle& f) {
   return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
 }
 
-// Marks the faces at one edge that equal an earlier face. Also counts opposed faces, which have the
-// vertices of an earlier face in the opposite direction.
+// Marks the faces at one edge that equal an earlier face. Also counts opposed faces: they have the
+// same vertices as an earlier face, in opposite direction.
 void mark_copies(std::span<const Triangle> faces, std::span<const EdgeSide> sides,
                  std::vector<bool>& marked, Tally& duplicates, Tally& opposed) {
   std::vector<std::array<std::uint32_t, 3>> order;  // each entry: apex, direction, face
@@ -53,10 +53,11 @@ void mark_copies(std::span<const Triangle> faces, std::span<const EdgeSide> side
   }
 }
 
-using NamedSide = std::array<std::uint32_t, 3>;  // smaller vertex, larger vertex, corner
+// An edge's smaller and larger vertex, and the opposite corner of a face at the edge.
+using NamedSide = std::array<std::uint32_t, 3>;
 
-// Whether the edge has exactly two faces, in opposite directions, that are not the reverse of each
-// other.
+// Whether the edge has exactly two faces that run in opposite directions. Two faces with the same
+// three vertices do not count.
 bool are_partners(std::span<const EdgeSide> sides, std::span<const Triangle> faces) {
   return sides.size() == 2 &&
          runs_upwards(faces, sides[0].corner) != runs_upwards(faces, sides[1].corner) &&
@@ -119,7 +120,7 @@ class Repairer {
   }
 
   // Removes each face that equals an earlier one. Equal faces share the edge between their two
-  // smallest vertices, so only that edge is searched. Returns whether any face was removed.
+  // smallest vertices, so only this edge is searched. Returns whether a face was removed.
   bool drop_duplicates(const EdgeGroups& groups) {
     Tally duplicates, opposed;
     std::vector<bool> marked(mesh_.faces.size(), false);
@@ -157,8 +158,8 @@ class Repairer {
     std::vector<std::uint32_t> across = pair_faces(mesh_.positions, mesh_.faces, groups);
     std::vector<Triangle> faces;
     std::vector<std::uint32_t> origins;
-    // Splitting by fans suffices unless a surface folds back onto its own edge. In that case, such
-    // edges are cut first. If they are still tangled, their faces are separated from all
+    // Splitting by fans suffices unless a surface folds back onto its own edge. In that case, the
+    // tangled edges are cut first. If edges are still tangled, their faces are separated from all
     // neighbours.
     for (const int corners_to_cut : {1, 3, 0}) {
       faces = mesh_.faces;
@@ -187,9 +188,9 @@ class Repairer {
     }
   }
 
-  // Returns the corners opposite to tangled edges, using the vertices in `faces`. An edge is
-  // tangled if it has more than two faces, or two faces that run in the same direction or are
-  // equal.
+  // Returns the corners opposite to tangled edges. `faces` holds the current vertices of the faces
+  // in `groups`. An edge is tangled if it has more than two faces, or two faces that are equal or
+  // run in the same direction.
   std::vector<std::uint32_t> tangled_corners(const EdgeGroups& groups,
                                              std::span<const Triangle> faces) const {
     std::vector<std::uint32_t> tangled;
@@ -310,7 +311,7 @@ class Repairer {
     erase_faces(texturing_, marked);
   }
 
-  // Returns the number of face f in the input.
+  // Returns the number that face f had in the input.
   std::uint64_t source(std::size_t f) const { return source_.empty() ? f : source_[f]; }
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(mesh_.positions.size()); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns any set of triangles into manifolds with boundary. Removes only degenerate and duplicate
+// Turns any set of triangles into a manifold with boundary. Removes only degenerate and duplicate
 // faces.
 #pragma once
 
@@ -13,25 +13,27 @@
 namespace vitrine::inline codec {
 
 struct RepairedMesh {
-  TriangleMesh mesh;  // accepted by Connectivity::close
-  // The import's repairs, then one line for each kind of repair made here.
+  TriangleMesh mesh;  // satisfies Connectivity::close()
+  // The repairs made during import, then one line for each kind of repair made here.
   std::vector<std::string> repairs;
   std::uint64_t boundary_edges = 0;
-  std::uint64_t components = 0;  // number of components; shared vertices connect faces
-  Texturing texturing;           // of the faces of `mesh`
+  std::uint64_t components = 0;  // faces that share a vertex are connected
+  Texturing texturing;           // texturing of `mesh`
 };
 
 // Repairs a mesh in these steps:
 // - Faces that repeat a vertex are removed.
-// - Of duplicate faces (same vertices in the same cyclic order), the first one is kept.
+// - Of duplicate faces (same vertices in the same cyclic order), only the first is kept.
 // - Each connected patch gets the orientation of the majority of its faces.
 // - At an edge with three or more faces, the faces are paired by angle. This separates solids that
-//   touch at the edge. Opposed faces on the same vertices become two sheets.
+//   touch at the edge. Two opposed faces on the same vertices become two separate sheets.
 // - One-sided surfaces are cut.
-// - Vertices with several fans are split, one vertex per fan.
+// - Vertices with several fans are split into one vertex per fan.
 // - Unused vertices are removed.
-// All other faces are kept, in order. Materials and texture coordinates stay with the corners.
-// Fails (kBadInput) if an index is out of range or no face has an area. Takes O(n log n) time.
+//
+// All other faces are kept in their order. Materials and texture coordinates stay with their
+// corners. Fails (kBadInput) if an index is out of range or no face has an area. Takes O(n log n)
+// time.
 Expected<RepairedMesh> repair(ImportedMesh imported);
 
 }  // namespace vitrine::inline codec

@@ -11,7 +11,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Returns the corners opposite to the edges that have only one face.
+// Returns the corners opposite to edges that have only one face.
 std::vector<std::uint32_t> border_corners(std::size_t vertex_count,
                                           std::span<const Triangle> faces) {
   std::vector<std::uint32_t> corners;
@@ -32,8 +32,8 @@ class SeamJoiner {
     name_points(VertexOrder(positions, attributes));
   }
 
-  // Returns for each vertex the lower-numbered vertex with which it is merged, or the vertex
-  // itself.
+  // Returns, for each vertex, the vertex with which it is merged. This is a vertex with a lower
+  // number, or the vertex itself.
   std::vector<std::uint32_t> join() && {
     std::sort(borders_.begin(), borders_.end(), [&](std::uint32_t a, std::uint32_t b) {
       const EdgeVertices p = points_of(a), q = points_of(b);
@@ -99,8 +99,8 @@ class SeamJoiner {
 
   const std::vector<Vec3>& positions_;
   std::span<const Triangle> faces_;
-  std::vector<std::uint32_t> borders_;  // corners opposite to border edges
-  // Per end of a border edge: the lowest-numbered vertex equal to it.
+  std::vector<std::uint32_t> borders_;  // corners opposite to the border edges
+  // For each end of a border edge, the lowest-numbered equal vertex.
   std::vector<std::uint32_t> point_;
   std::vector<std::uint32_t> older_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closes seams: borders along which a file repeats its vertices.
+// Closes seams. A seam is a border along which a file repeats its vertices.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,13 @@
 
 namespace vitrine::inline codec {
 
-// Merges the vertices that are repeated along seams. The ends of two border edges are merged if
-// exactly these two border edges, in any direction, lie between the same two points with the same
-// attributes, and neither face is a copy or the reverse of the other. Vertices are not merged if
-// their edges touch only in a point, if they lie along an inner edge, or if three or more border
-// edges coincide.
+// Merges the vertices that are repeated along seams. Two border edges lie on a seam if they join
+// the same two points with the same attributes. Their ends are then merged, unless one of the two
+// faces is a copy or the reverse of the other. Vertices are not merged if their edges touch only in
+// a point, if they lie along an inner edge, or if three or more border edges coincide.
 //
-// The remaining vertices keep their order. Returns the new index of each old vertex. Positions that
-// faces use must be finite. Takes O(n log n) time.
+// The remaining vertices keep their order. Returns the new index of each old vertex. Positions used
+// by faces must be finite. Takes O(n log n) time.
 std::vector<std::uint32_t> weld_seams(std::vector<Vec3>& positions, VertexAttributes& attributes,
                                       std::span<const Triangle> faces);
 

@@ -10,13 +10,14 @@
 
 namespace vitrine::inline codec {
 
-// With more corners, ear clipping would be too slow, because it takes quadratic time.
-inline constexpr std::size_t kMostClippedCorners = 256;
+// Largest number of corners of a polygon that becomes a triangle fan. In a larger fan, too many
+// long triangles would meet at one vertex.
+inline constexpr std::size_t kMostFanCorners = 256;
 
-// Appends the n - 2 triangles of a polygon, given as n >= 3 indices into `positions` in
-// counter-clockwise order. The corners of the triangles are indices into `polygon`. A convex
-// polygon becomes a fan, any other one is cut by ear clipping. A polygon with more than
-// kMostClippedCorners corners always becomes a fan.
+// Appends the n - 2 triangles of a polygon. The polygon is given as n >= 3 indices into
+// `positions`, counter-clockwise. The corners of the triangles are indices into `polygon`. A convex
+// polygon with at most kMostFanCorners corners becomes a triangle fan, as does one with unusable
+// positions (raw_mesh.h). All other polygons are cut by ear clipping, in about n log n time.
 void triangulate(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon,
                  std::vector<Triangle>& triangles);
 

@@ -11,8 +11,8 @@
 
 namespace vitrine::inline codec {
 
-// Compares two vertices by position, then by attributes. Returns a negative number, 0 or a positive
-// number. Positions must be finite.
+// Compares two vertices by position, then by attributes. Returns a negative number, 0, or a
+// positive number. Positions must be finite.
 class VertexOrder {
  public:
   VertexOrder(const std::vector<Vec3>& positions, const VertexAttributes& attributes)
@@ -20,8 +20,8 @@ class VertexOrder {
 
   int operator()(std::uint32_t a, std::uint32_t b) const;
 
-  // Sorts `vertices` by value and then by number. Calls visit(vertex, oldest) for each vertex,
-  // where `oldest` is the lowest-numbered vertex equal to it.
+  // Sorts `vertices` by value and then by index. Calls visit(vertex, oldest) for each vertex;
+  // `oldest` is the vertex with the lowest index among all equal ones.
   template <class Visit>
   void for_each_oldest(std::vector<std::uint32_t> vertices, Visit visit) const {
     std::sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -40,19 +40,19 @@ class VertexOrder {
   const VertexAttributes& attributes_;
 };
 
-// Replaces each vertex v by older[v] if the two differ. older[v] is at most v and may itself be
-// replaced. Changes `older` to the new index of each old vertex. The remaining vertices keep their
-// order.
+// Merges each vertex v into vertex older[v], unless the two are the same. older[v] is at most v and
+// may itself be merged into another vertex. Changes `older` to hold the new index of each old
+// vertex. The remaining vertices keep their order.
 void merge_into_older(std::vector<std::uint32_t>& older, std::vector<Vec3>& positions,
                       VertexAttributes& attributes);
 
-// Merges vertices with exactly the same position and attributes. The remaining vertices keep the
-// order of their first appearance. Returns the new index of each old vertex. Positions must be
+// Merges vertices that have exactly the same position and attributes. The remaining vertices are in
+// the order of their first appearance. Returns the new index of each old vertex. Positions must be
 // finite.
 std::vector<std::uint32_t> weld(std::vector<Vec3>& positions, VertexAttributes& attributes);
 
-// Returns the colours of the `count` vertices that remain after merging. Each is the mean, in
-// linear light, of the colours of the vertices merged into it. renamed[v] is the new index of old
+// Returns the colours of the `count` vertices that remain after merging. A vertex gets the mean
+// colour, in linear light, of all vertices merged into it. renamed[v] is the new index of old
 // vertex v.
 std::vector<Colour> blended(const std::vector<std::uint32_t>& renamed, std::size_t count,
                             const std::vector<Colour>& colours);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Performs an edge collapse and returns the record from which a vertex split can undo it.
+// Performs an edge collapse. Returns the record that a vertex split needs to undo it.
 #pragma once
 
 #include "codec/format/hierarchy.h"
@@ -14,8 +14,8 @@ struct Pick {
 };
 
 // Collapses `edge`, which must be the edge at pick.corner and must pass keeps_manifold(). Moves v1
-// to v~, adds v2's quadric to v1's, and merges the attributes of both vertices. Does not change
-// `surface.live`.
+// to v~, adds v2's quadric to v1's, and merges the attributes of both vertices. Leaves
+// `surface.live` unchanged.
 Collapse apply_collapse(Surface& surface, const EdgeStar& edge, const Pick& pick);
 
 }  // namespace vitrine::inline codec

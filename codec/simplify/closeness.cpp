@@ -11,7 +11,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// A one-ring, with the position of each neighbour. Virtual neighbours get (0, 0, 0).
+// The one-ring of a vertex, with the positions of its neighbours. Virtual neighbours have the
+// position (0, 0, 0).
 struct StarGeometry {
   StarGeometry(const Surface& surface, const Star& around) : star(around) {
     for (const VertexId v : star.neighbours())
@@ -22,11 +23,11 @@ struct StarGeometry {
   boost::container::static_vector<Vec3, Star::kCapacity> point;
 };
 
-// The faces around an edge, either before or after its collapse.
+// The faces around an edge: those before its collapse, or those after it.
 class Patch {
  public:
-  // The faces between the point `centre` and a ring, except those with the vertex `without` or a
-  // virtual vertex.
+  // The faces between the point `centre` and a ring. Faces with the vertex `without` or a virtual
+  // vertex are left out.
   struct Fan {
     const StarGeometry& ring;
     Vec3 centre;
@@ -40,9 +41,9 @@ class Patch {
 
   std::span<const TrianglePoints> faces() const { return face_; }
 
-  // Whether `p` is at most the square root of `squared` away from some face of the patch. Callers
-  // pass points in the order of the faces, so each search starts at the face where the previous
-  // search ended.
+  // Whether the squared distance from `p` to some face of the patch is at most `squared`. Callers
+  // pass points in the order of the faces, so each search starts at the face where the last one
+  // ended.
   bool is_near(const Vec3& p, double squared) {
     for (std::uint32_t i = 0; i < size(); ++i) {
       if (squared_distance(face_[last_], p) <= squared) return true;
@@ -52,9 +53,9 @@ class Patch {
   }
 
   // Whether the midpoints of the edges from `edges.centre` to its ring are near this patch. `fan`
-  // is the index of this patch's fan with the same ring.
+  // is the index of the fan in this patch that has the same ring.
   bool has_near(const Fan& edges, std::uint32_t fan, double squared) {
-    last_ = start_[fan] < size() ? start_[fan] : 0;  // 0 if that fan has no faces
+    last_ = start_[fan] < size() ? start_[fan] : 0;  // 0 if the fan has no faces
     for (std::uint32_t i = 0; i < edges.ring.star.valence; ++i) {
       const VertexId v = edges.ring.star.vertex[i];
       if (v == edges.without || is_virtual(v)) continue;
@@ -63,7 +64,7 @@ class Patch {
     return true;
   }
 
-  // Whether the centroids of the other patch's faces are near this patch.
+  // Whether the centroids of all faces in `other` are near this patch.
   bool has_near(const Patch& other, double squared) {
     last_ = 0;
     return std::ranges::all_of(other.faces(), [&](const TrianglePoints& f) {
@@ -89,9 +90,10 @@ class Patch {
   std::uint32_t last_ = 0;
 };
 
-// Whether two patches with the same boundary lie in a thin slab and all of their faces point the
-// same way. If so, both patches cover each point of the slab's plane equally often (as often as
-// their boundary winds around it). Each patch therefore lies straight above or below the other.
+// Whether two patches with the same boundary lie in a thin slab and all their faces point to the
+// same side. If so, both patches cover each point of the slab's plane equally often: as often as
+// their boundary winds around the point. Each patch therefore lies straight above or below the
+// other.
 bool share_slab(const Patch& one, const Patch& other, double thickness) {
   Vec3 normal;
   for (const TrianglePoints& t : one.faces())
@@ -101,7 +103,7 @@ bool share_slab(const Patch& one, const Patch& other, double thickness) {
   for (const Patch* patch : {&one, &other}) {
     for (const TrianglePoints& t : patch->faces()) {
       if (dot(normal_of(t), normal) <= 0) return false;
-      // t.c is skipped, because another face of the patch has it as t.b.
+      // t.c is skipped, because it is t.b of another face of the patch.
       for (const Vec3& p : {t.a, t.b}) {
         const double height = dot(p - origin, normal);
         low = std::min(low, height), high = std::max(high, height);
@@ -117,7 +119,7 @@ bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& targe
   const Vec3 p1 = surface.point(edge.v1), p2 = surface.point(edge.v2), to = surface.middle(target);
   const StarGeometry ring1(surface, edge.star1), ring2(surface, edge.star2);
   Patch after({ring1, to, edge.v2}, {ring2, to, edge.v1});
-  // The first fan includes the two faces at the edge, so the second fan leaves them out.
+  // The two faces at the edge belong to the first fan, so the second fan leaves them out.
   Patch before({ring1, p1, edge.v1}, {ring2, p2, edge.v1});
   if (after.faces().empty()) return false;
   const bool inside = !edge.star1.is_on_border && !edge.star2.is_on_border;
@@ -125,7 +127,7 @@ bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& targe
   const double squared = reach * reach;
   if (!after.is_near(p1, squared) || !after.is_near(p2, squared)) return false;
   // If an end of the edge moves by at most 2 * reach, the midpoints of its edges move by at most
-  // `reach`, so they need no check.
+  // `reach`. In that case, they need no check.
   const auto move = [&](const Patch::Fan& from, std::uint32_t fan, VertexId other) {
     return length(to - from.centre) <= 2 * reach ||
            (after.has_near(from, fan, squared) &&

@@ -6,7 +6,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Minimum cosine of the angle between a face's normals before and after a collapse.
+// Minimum cosine of the angle between the normals of a face before and after a collapse.
 constexpr double kLeastCosine = 0.2;
 
 bool has_valence_3(const Connectivity& mesh, Corner c) {

@@ -14,7 +14,7 @@ namespace {
 struct EdgeCost {
   double cost;
   VertexId a, b;        // a < b
-  std::uint32_t stamp;  // sum of the two vertices' stamps when the cost was computed
+  std::uint32_t stamp;  // sum of the stamps of a and b when the cost was computed
 
   // Reversed, because std::priority_queue pops the largest element first.
   bool operator<(const EdgeCost& o) const {
@@ -22,14 +22,14 @@ struct EdgeCost {
   }
 };
 
-// Computes the level of each collapse. A collapse meets all vertices of both one-rings and changes
-// v1 and v2.
+// Computes the level of each collapse. A collapse depends on all vertices of both one-rings. It
+// changes v1 and v2.
 class Dependencies {
  public:
   explicit Dependencies(std::size_t vertices) : changed_(vertices), met_(vertices) {}
 
-  // Returns the finest level to which the collapse can be added. Levels are numbered from 1, the
-  // finest.
+  // Returns the finest level to which the collapse can be added. Levels are numbered from 1, which
+  // is the finest.
   std::uint32_t level_of(const EdgeStar& edge) const {
     std::uint32_t last = std::max(met_[edge.v1], met_[edge.v2]);
     for_each_met(edge, [&](VertexId v) { last = std::max(last, changed_[v]); });
@@ -46,7 +46,7 @@ class Dependencies {
   static void for_each_met(const EdgeStar& edge, const Visit& visit) {
     for (const Star* star : {&edge.star1, &edge.star2}) {
       for (VertexId v : star->neighbours()) {
-        if (!is_virtual(v)) visit(v);  // includes v1 and v2, each being a neighbour of the other
+        if (!is_virtual(v)) visit(v);  // v1 and v2 are among the neighbours
       }
     }
   }
@@ -65,7 +65,8 @@ class HeapOrder {
 
   std::vector<CollapseLevel> run(std::uint32_t target_vertices) {
     std::size_t left = surface_.live.size();
-    // An edge that was refused may become legal later, so repeat until a pass collapses nothing.
+    // An edge that was refused may become legal later. The loop therefore repeats until a pass
+    // collapses no edge.
     for (std::size_t before = left + 1; left > target_vertices && left < before;) {
       before = left;
       push_all();
@@ -157,10 +158,11 @@ class HeapOrder {
   Surface& surface_;
   const LevelRules& rules_;
   Dependencies depends_;
-  std::vector<std::uint32_t> stamp_;  // per vertex: number of times it has moved
+  std::vector<std::uint32_t> stamp_;  // per vertex: number of times the vertex has moved
   std::uint32_t most_levels_;
   std::priority_queue<EdgeCost> heap_;
-  std::vector<std::map<Vec3i, Collapse>> levels_;  // per level: its collapses, sorted by v~
+  // Collapses of each level, sorted by the position of the merged vertex.
+  std::vector<std::map<Vec3i, Collapse>> levels_;
 };
 
 }  // namespace

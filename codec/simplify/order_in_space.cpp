@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kBits = 10;  // bits per coordinate
 
-// Inserts two zero bits after each of the ten bits.
+// Inserts two zero bits after each of the ten bits of `bits`.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 16) & 0x0300'00FFu;
   bits = (bits | bits << 8) & 0x0300'F00Fu;
@@ -50,8 +50,8 @@ void permute(std::vector<T>& items, const std::vector<KeyedIndex>& order) {
 
 }  // namespace
 
-void order_in_space(TriangleMesh& mesh) {
-  if (mesh.positions.empty()) return;
+std::vector<std::uint32_t> order_in_space(TriangleMesh& mesh) {
+  if (mesh.positions.empty()) return {};
   std::vector<KeyedIndex> scratch, order = along_curve(mesh.positions);
   radix_sort(order, scratch);
   permute(mesh.positions, order);
@@ -68,6 +68,11 @@ void order_in_space(TriangleMesh& mesh) {
   }
   radix_sort(order, scratch);
   permute(mesh.faces, order);
+  std::vector<std::uint32_t> before;
+  before.reserve(order.size());
+  for (const KeyedIndex& from : order)
+    before.push_back(from.index);
+  return before;
 }
 
 }  // namespace vitrine::inline codec

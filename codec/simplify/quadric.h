@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quadric error metric [GH97]: a weighted sum of squared distances to planes.
+// Quadric error metric [GH97]: the weighted sum of a point's squared distances to planes.
 #pragma once
 
 #include "codec/core/vec.h"
@@ -11,8 +11,8 @@ struct Quadric {
   double x = 0, y = 0, z = 0;                             // sum of weight * normal * offset
   double c = 0;                                           // sum of weight * offset^2
 
-  // Returns the total weight of the planes. It equals the trace of the matrix, because the normals
-  // have unit length.
+  // Returns the total weight of the planes. This is the trace of the matrix, because normals have
+  // unit length.
   double weight() const { return xx + yy + zz; }
 
   Quadric& operator+=(const Quadric& o) {
@@ -21,15 +21,15 @@ struct Quadric {
     return *this;
   }
 
-  // Returns the error at p: the weighted sum of squared distances to the planes. Rounding may make
-  // the result slightly negative.
+  // Returns the error at p: the weighted sum of squared distances from p to the planes. Rounding
+  // may make the result slightly negative.
   double at(const Vec3& p) const {
     return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) +
            p.y * (yy * p.y + 2 * (yz * p.z + y)) + p.z * (zz * p.z + 2 * z) + c;
   }
 
-  // Returns by how much the error decreases if p moves along the gradient to the minimum on that
-  // line (one step of steepest descent).
+  // Returns how much the error decreases if p moves along the gradient to the minimum on that line.
+  // This is one step of steepest descent.
   double mendable(const Vec3& p) const {
     const Vec3 slope{xx * p.x + xy * p.y + xz * p.z + x, xy * p.x + yy * p.y + yz * p.z + y,
                      xz * p.x + yz * p.y + zz * p.z + z};

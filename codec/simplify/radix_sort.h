@@ -14,8 +14,8 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-// Sorts `items` by key. Items with equal keys keep their order. Resizes `scratch`, the working
-// memory.
+// Sorts `items` by key. Items with equal keys keep their order. `scratch` is working memory; its
+// size changes.
 inline void radix_sort(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch) {
   constexpr int kBits = 11, kPasses = 3;
   constexpr std::uint32_t kBuckets = 1u << kBits;

@@ -9,7 +9,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint32_t kMostLeaves = 32'768;
-constexpr std::uint32_t kSomeFork = 1;  // replaced once the fork levels are known
+constexpr std::uint32_t kSomeFork = 1;  // marks a node that forks; its level is computed later
 
 std::int32_t coordinate(const Vec3i& p, std::uint8_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
@@ -39,7 +39,8 @@ class RegionTreeBuilder {
   }
 
  private:
-  // Finds a plane that has vertices on both sides. Returns false if all vertices coincide.
+  // Chooses the plane that divides `vertices` at the median of their longest axis. Returns false if
+  // all vertices coincide.
   bool choose(std::span<std::uint32_t> vertices, RegionPlane& plane) const {
     Vec3i low = positions_[vertices[0]], high = low;
     for (const std::uint32_t v : vertices) {
@@ -74,8 +75,8 @@ RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capac
   labels.leaf.resize(count);
   std::vector<std::uint32_t> vertices(count);
   std::iota(vertices.begin(), vertices.end(), 0u);
-  // Each fork halves the number of vertices, so a leaf has at least about half the capacity, unless
-  // many vertices coincide. The capacity is therefore raised until about kMostLeaves leaves
+  // Each fork halves the number of vertices. A leaf therefore has at least about half the capacity,
+  // unless many vertices coincide. The capacity is raised such that about kMostLeaves leaves
   // suffice.
   RegionTreeBuilder(positions, std::max(capacity, count / (kMostLeaves / 2)), labels)
       .build(vertices);
@@ -116,8 +117,8 @@ void RegionJoiner::join(std::span<const VertexId> live, std::uint32_t most,
       if (joins) joined_[i] = calls_;
     }
     if (!is_region(i)) continue;
-    // Nodes are visited from the leaves to the root, so each leaf ends up with the number of the
-    // largest region that contains it.
+    // Nodes are visited from the leaves to the root. Each leaf therefore ends up with the number of
+    // the largest region that contains the leaf.
     std::fill_n(name.begin() + node.first, node.leaves, static_cast<std::uint16_t>(node.first));
   }
   for (const VertexId v : live)
@@ -128,7 +129,7 @@ bool RegionJoiner::finish(std::uint32_t levels) {
   for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
     RegionNode& node = tree_.nodes[i];
     if (node.fork == 0) continue;
-    // The n-th call of join() preceded the collapses of level `levels` + 1 - n.
+    // Call number n of join() came before the collapses of level `levels` + 1 - n.
     if (joined_[i] == 0 || joined_[i] > levels) return false;
     node.fork = levels + 2 - joined_[i];
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Divides the vertices of the fine mesh into the leaves of a kd-tree. Joins these leaves into
-// larger regions as the mesh gets coarser.
+// Divides the vertices of the fine mesh among the leaves of a kd-tree. As the mesh gets coarser,
+// joins leaves into larger regions.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@
 namespace vitrine::inline codec {
 
 struct RegionLabels {
-  RegionTree tree;                  // RegionJoiner::finish() sets the levels of the forks
-  std::vector<std::uint16_t> leaf;  // per position: its leaf
+  RegionTree tree;                  // RegionJoiner::finish() sets the fork levels
+  std::vector<std::uint16_t> leaf;  // per position: index of its leaf
 };
 
 // Assigns each position to a leaf. A node with more than `capacity` (>= 1) vertices forks at the
-// median along the longest side of their box, unless all vertices coincide. If `capacity` would
-// give more than 32,768 leaves, a larger capacity is used.
+// median along the longest side of its bounding box, unless all its vertices coincide. `capacity`
+// is raised if it would give more than 32,768 leaves.
 RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capacity);
 
-// Returns for each leaf the leaves that share an edge with it, in ascending order.
+// Returns, for each leaf, the leaves that share an edge with it, in ascending order.
 std::vector<std::vector<std::uint32_t>> leaf_adjacency(std::span<const Triangle> faces,
                                                        const RegionLabels& labels);
 
@@ -33,14 +33,14 @@ class RegionJoiner {
   // `tree` must outlive this object.
   explicit RegionJoiner(RegionTree& tree) : tree_(tree), joined_(tree.nodes.size(), 0) {}
 
-  // Joins sibling regions that together have at most `most` live vertices. Call this before the
+  // Joins sibling regions if they have at most `most` live vertices together. Call this before the
   // collapses of each level. `region` holds the region of each vertex and is updated.
   void join(std::span<const VertexId> live, std::uint32_t most, std::vector<std::uint16_t>& region);
 
   bool is_whole() const { return is_region(0); }  // whether only one region is left
 
-  // Sets the levels of the forks. Call this once, after all of the `levels` levels are collapsed.
-  // Returns false if the coarsest level has more than one region, which the format does not allow.
+  // Sets the fork levels. Call this once, after all `levels` levels have been collapsed. Returns
+  // false if the coarsest level has more than one region, because the format does not allow this.
   bool finish(std::uint32_t levels);
 
  private:
@@ -49,8 +49,7 @@ class RegionJoiner {
   }
 
   RegionTree& tree_;
-  // Per node: number of the join() call, from 1, that joined its children; 0 if they are not
-  // joined.
+  // Per node: number of the join() call, from 1, that joined the node's children; 0 if none did.
   std::vector<std::uint32_t> joined_;
   std::uint32_t calls_ = 0;
 };

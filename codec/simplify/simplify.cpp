@@ -17,15 +17,16 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Number of finest levels that keep a regular sampling (LevelRules::is_regular).
+// Number of levels, starting with the finest, that keep a regular sampling
+// (LevelRules::is_regular).
 constexpr std::uint32_t kRegularLevels = 4;
-// Weight of the edge length in the cost. It makes short edges collapse first, above all in the
-// finest level, where the other costs are noise. Without it, coarser levels need more bytes.
-constexpr double kFinestLengthWeight = 5e-3, kLengthWeight = 1e-3;
-constexpr double kCellPerError = 1;  // side of a cell, in units of the rms distance from the planes
-// A level that removes less than 1/50 of the vertices is the last one, unless small components can
-// be removed next. In such a level, topology prevents most collapses, and each further level costs
+// Weight of the edge length in the cost. With this weight, short edges collapse first. This matters
+// most in the finest level, where the other costs are noise. Without it, coarser levels need more
 // bytes.
+constexpr double kFinestLengthWeight = 5e-3, kLengthWeight = 1e-3;
+constexpr double kCellPerError = 1;  // side of a cell, relative to the rms distance from the planes
+// A level that removes less than 1/50 of the vertices is the last one, unless small components can
+// be removed next. Topology prevents most collapses in such a level, and further levels cost bytes.
 constexpr std::uint32_t kLeastShare = 50;
 
 Surface make_surface(const LatticeMesh& fine, Connectivity mesh, std::span<const Vec3> original) {
@@ -45,7 +46,11 @@ class Simplifier {
  public:
   Simplifier(Surface& surface, const Lattice& lattice, const SimplifyOptions& options,
              RegionTree& tree)
-      : surface_(surface), options_(options), matcher_(surface), regions_(tree), small_(surface) {
+      : surface_(surface),
+        options_(options),
+        matcher_(surface, options.threads),
+        regions_(tree),
+        small_(surface) {
     const std::int32_t side = 1 << lattice.bits, margin = side / 4;
     low_ = {-margin, -margin, -margin};
     high_ = {side - 1 + margin, side - 1 + margin, side - 1 + margin};
@@ -71,11 +76,11 @@ class Simplifier {
     return surface_.live.size() <= options_.target_vertices + options_.target_vertices / 4;
   }
 
-  // This and the functions below order levels from fine to coarse.
+  // This function and those below order levels from fine to coarse.
   std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
-    // The format requires that the coarsest level has only one region. A level that joins the last
-    // regions is therefore added even if it has no collapses.
+    // The format requires that the coarsest level has only one region. If the last regions are
+    // joined in a level, this level is added even if it has no collapses.
     bool enough = is_small(), shedding = false;
     while (levels.size() + 1 < Limits{}.levels && !(enough && regions_.is_whole())) {
       const std::size_t before = surface_.live.size();
@@ -90,19 +95,20 @@ class Simplifier {
         coarsen_lattice();
         report();
       }
-      // If collapses alone remove too few vertices, also remove the smallest components.
+      // Also removes the smallest components if collapses alone remove too few vertices.
       const bool stuck = (before - surface_.live.size()) * kLeastShare < before;
-      shedding |= stuck && small_.vertices() * kLeastShare >= surface_.live.size();
+      shedding |= stuck && options_.omits_components &&
+                  small_.vertices() * kLeastShare >= surface_.live.size();
       enough = is_small() || (stuck && (was_shedding || !shedding));
     }
     return levels;
   }
 
-  // Removes components that the level's error hides. If `many` is true, then also removes the
-  // smallest components until half of the vertices are left, because collapses alone remove too
-  // few.
+  // Removes components that are hidden by the level's error. If `many` is true, collapses alone
+  // remove too few vertices. In that case, also removes the smallest components until half of the
+  // vertices are left.
   std::vector<Component> shed_components(bool many) {
-    if (small_.vertices() == 0) return {};
+    if (!options_.omits_components || small_.vertices() == 0) return {};
     const std::size_t now = surface_.live.size();
     const std::size_t fewer = std::max<std::size_t>(options_.target_vertices, now / 2);
     return small_.leave(surface_, {rms_error(), many ? fewer : now});
@@ -117,8 +123,8 @@ class Simplifier {
     return levels;
   }
 
-  // Makes the lattice as coarse as the level's error, because finer bits would cost bytes before
-  // they are visible. The splits of the level restore the bits that are removed here.
+  // Makes cells about as large as the level's error, because finer bits would cost bytes before
+  // they are visible. The low bits that are removed here are coded again with the level's splits.
   void coarsen_lattice() {
     const std::uint32_t before = surface_.shift;
     const std::uint32_t wanted = splits_see_other_regions_ ? before : coarsest_shift();
@@ -135,7 +141,7 @@ class Simplifier {
     refined_.push_back(std::move(refined));
   }
 
-  // Returns the rms distance from the planes of the surface before rounding, in lattice units.
+  // Returns the rms distance, in lattice units, from the planes of the surface before rounding.
   double rms_error() const {
     double error = 0, weight = 0;
     for (VertexId v : surface_.live) {
@@ -154,7 +160,7 @@ class Simplifier {
   }
 
   void join_regions(std::uint32_t from_finest, bool in_one) {
-    // The regions of the finest level are the leaves, so they are never joined.
+    // The regions of the finest level are always the leaves, which are not joined.
     const bool join_all = in_one && from_finest > 0;
     regions_.join(surface_.live, join_all ? UINT32_MAX : options_.region_vertices, surface_.region);
   }
@@ -176,7 +182,8 @@ class Simplifier {
     CollapseLevel level;
     const std::vector<Pick>& picks = matcher_.match(rules);
     level.reserve(picks.size());
-    // Earlier collapses of this level may have changed the neighbourhood, so check again.
+    // Earlier collapses of this level may have changed the surroundings of the edge, so the edge is
+    // checked again.
     for (const Pick& pick : picks) {
       const EdgeStar edge(surface_.mesh, pick.corner);
       if (keeps_manifold(surface_.mesh, edge) && matcher_.keeps_shape(edge, pick.target)) {
@@ -200,7 +207,8 @@ class Simplifier {
   Vec3i low_, high_;
   RegionJoiner regions_;
   SmallComponents small_;
-  bool splits_see_other_regions_ = false;  // whether v~ depends on exact positions in other regions
+  // Whether merged positions depend on exact positions in other regions.
+  bool splits_see_other_regions_ = false;
   std::vector<std::uint32_t> shifts_{0};
   std::vector<std::vector<Refined>> refined_;
   std::vector<std::vector<Component>> insertions_;

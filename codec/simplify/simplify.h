@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simplifies a fine mesh to a base mesh [Hoppe96] in levels of edge collapses. Records the
-// collapses, so that vertex splits can undo them exactly. Levels also omit components that are too
-// small to be visible in them.
+// Simplifies a fine mesh to a base mesh [Hoppe96], in levels of edge collapses. Records the
+// collapses so that vertex splits can undo them exactly. A level also omits components that are too
+// small to be visible in it.
 #pragma once
 
 #include <cstdint>
@@ -15,34 +15,36 @@
 namespace vitrine::inline codec {
 
 enum class CollapseOrder : std::uint8_t {
-  kBatch,  // few levels, each with many collapses that share no vertex (matching.h)
-  kHeap,   // always the cheapest edge next (heap_order.h): many levels, one region
+  kBatch,  // few levels, each with many independent collapses (matching.h)
+  kHeap,   // cheapest edge first (heap_order.h): many levels, one region
 };
 
 struct SimplifyOptions {
   Placement placement = Placement::kMidpoint;
   CollapseOrder order = CollapseOrder::kBatch;
   std::uint32_t target_vertices = 300;  // approximate number of vertices of the base mesh
-  // A region with more vertices than this forks. 0 means that the model is one region. Regions of
-  // the coarsest levels may have fewer vertices, because each vertex costs more bytes there.
+  // A region with more vertices than this forks. 0 means that the whole model is one region. In the
+  // coarsest levels, regions may have fewer vertices, because each vertex costs more bytes there.
   std::uint32_t region_vertices = 0;
+  // Whether coarse levels may omit small components. A textured model keeps them.
+  bool omits_components = true;
+  unsigned threads = 1;  // at least 1; does not change the result
   // Receives the completed fraction, 0 to 1, once per level.
   std::function<void(double)> progress = {};
 };
 
-// Builds the hierarchy of `fine`. `original` holds the positions of its vertices, in the same
-// order, before they were rounded to the lattice (model units). If it is empty, the rounded
-// positions are used. Quadrics are computed from the planes of `original`, because rounding tilts
-// the planes of faces that are only a few lattice steps wide.
+// Builds the hierarchy of `fine`. `original` holds the positions of the same vertices before
+// rounding to the lattice, in model units. If `original` is empty, the rounded positions are used.
+// Quadrics are computed from the planes of `original`, because rounding tilts faces that are only a
+// few lattice steps wide.
 //
-// Fails (kBadInput) if Connectivity::close refuses the faces. The base mesh has more vertices than
-// requested if no legal collapse is left or if the maximum number of levels is reached. The
-// collapses run out in meshes of high genus and, with kHeap, in meshes of many components. If the
-// coarsest level would have more than one region, the model is simplified as a single region.
+// Fails (kBadInput) if Connectivity::close() refuses the faces. The base mesh has more vertices
+// than requested if no legal collapse is left or the maximum number of levels is reached. No legal
+// collapse may be left in meshes of high genus and, with kHeap, in meshes of many components. If
+// the coarsest level would have more than one region, the model is simplified as a single region.
 //
 // With midpoint placement, v~ lies inside the lattice. With pyramid placement, v~ lies at most a
-// quarter of the lattice's side outside it. The same input gives the same hierarchy on every
-// machine.
+// quarter of the lattice's side outside. The same input gives the same hierarchy on every machine.
 Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options,
                              std::span<const Vec3> original = {});
 

@@ -9,9 +9,10 @@
 namespace vitrine::inline codec {
 namespace {
 
-// A component with at most this many vertices may be removed even if it could collapse further.
+// A component with at most this many vertices may be removed even if edges could still collapse.
 constexpr std::size_t kFew = 8;
-// A component is hidden if its diameter is less than this many times the level's rms error.
+// A component is hidden by a level's error if its diameter is less than this many times the level's
+// rms error.
 constexpr double kDiameterPerError = 4;
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
@@ -40,8 +41,8 @@ void for_each_corner(const Connectivity& mesh, VertexId v, const Visit& visit) {
   } while (c != first);
 }
 
-// Labels each vertex with the number of its component. Returns the number of components. Components
-// are numbered in ascending order of their smallest vertices.
+// Labels each vertex with the number of its component. Components are numbered in ascending order
+// of their smallest vertices. Returns the number of components.
 std::uint32_t label_components(const Connectivity& mesh, std::vector<std::uint32_t>& label) {
   label.assign(mesh.vertex_count(), kNone);
   std::uint32_t count = 0;
@@ -84,7 +85,7 @@ double square_of_box(const Surface& surface, std::span<const VertexId> members) 
   return box.square() * cell * cell;
 }
 
-// Returns the component with the vertices `members`, which must be in ascending order.
+// Returns the component that consists of the vertices `members`, which must be in ascending order.
 Component component_of(const Surface& surface, std::span<const VertexId> members) {
   Component out;
   add_columns(out.mesh.attributes, surface.attributes);

@@ -4,7 +4,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kBorderWeight = 2;  // weight of a border plane per squared length of its edge
+constexpr double kBorderWeight = 2;  // weight of a border plane, per squared length of its edge
 
 class Accumulator {
  public:
@@ -21,7 +21,7 @@ class Accumulator {
  private:
   Vec3 at(Corner c) const { return position_(mesh_.vertex(c)); }
 
-  Vec3 face_normal(Corner c) const {  // the length of the result is twice the face's area
+  Vec3 face_normal(Corner c) const {  // its length is twice the area of the face
     return cross(at(next(c)) - at(c), at(prev(c)) - at(c));
   }
 

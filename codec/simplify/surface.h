@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mesh during simplification: its connectivity, and arrays indexed by fine vertex ids.
+// The mesh during simplification: its connectivity, and arrays indexed by vertex of the fine mesh.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 
 namespace vitrine::inline codec {
 
-// Returns the position of a vertex that is not virtual, in lattice units.
+// Returns the position of a non-virtual vertex, in lattice units.
 using PositionOf = std::function<Vec3(VertexId)>;
 
 struct Surface {
   Connectivity mesh;
-  // The cell of each vertex, with sides of 2^shift lattice units (codec/format/cell.h).
+  // Per vertex: its cell, with sides of 2^shift lattice units (codec/format/cell.h).
   std::vector<Vec3i> position;
   std::uint32_t shift = 0;
   LatticeAttributes attributes;
   std::vector<Quadric> quadric;
   std::vector<std::uint16_t> region;
-  std::vector<VertexId> live;  // vertices not yet removed, ascending
+  std::vector<VertexId> live;  // vertices that still exist, in ascending order
 
   // Returns the exact middle of a cell, in lattice units.
   Vec3 middle(const Vec3i& cell) const {
@@ -35,8 +35,8 @@ struct Surface {
   Vec3 point(VertexId v) const { return middle(position[v]); }
 };
 
-// Returns the quadric of each vertex [GH97]: the sum of the planes of its faces, weighted by area.
-// Border edges add planes perpendicular to their face, so that rims do not erode.
+// Returns the quadric of each vertex [GH97]: the sum of its faces' planes, weighted by area. Border
+// edges add planes perpendicular to their faces, so that borders do not erode.
 std::vector<Quadric> surface_quadrics(const Connectivity& mesh, const PositionOf& position);
 
 }  // namespace vitrine::inline codec

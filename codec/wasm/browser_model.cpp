@@ -5,12 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "codec/coding/atlas_coder.h"
 #include "codec/core/fill_in.h"
 
 namespace vitrine::inline codec {
 namespace {
 
-// Limits that fit into a WebAssembly memory of 4 GiB.
+// Limits for which a WebAssembly memory of 4 GiB suffices.
 constexpr Limits kBrowserLimits = {.vertices = 16'000'000, .faces = 32'000'000};
 
 std::uint64_t whole(double value) {
@@ -74,6 +75,19 @@ Expected<void> BrowserModel::check_base(std::span<const std::uint8_t> bytes) con
   return check("the base mesh", bytes, manifest_->base_sha256);
 }
 
+Expected<void> BrowserModel::check_atlas(std::span<const std::uint8_t> bytes) const {
+  return check("the atlas", bytes, manifest_->texture.atlas_sha256);
+}
+
+Expected<void> BrowserModel::check_picture(std::size_t picture,
+                                           std::span<const std::uint8_t> bytes) const {
+  const auto& pictures = manifest_->texture.pictures;
+  if (picture >= pictures.size())
+    return fail(ErrorCode::kState,
+                "there is no such picture; the manifest lists those that there are");
+  return check(fill_in("picture {}", {picture}), bytes, pictures[picture].sha256);
+}
+
 Expected<void> BrowserModel::check_chunk(std::size_t chunk,
                                          std::span<const std::uint8_t> bytes) const {
   if (chunk >= manifest_->chunks.size())
@@ -84,10 +98,15 @@ Expected<void> BrowserModel::check_chunk(std::size_t chunk,
                info.sha256);
 }
 
-Expected<void> BrowserModel::start(BaseMesh base) {
+Expected<void> BrowserModel::start(BaseMesh base, std::span<const std::uint8_t> atlas) {
+  if (!manifest_->texture.empty()) {
+    auto decoded = decode_atlas(atlas, base);
+    if (!decoded) return tl::unexpected(std::move(decoded.error()));
+    base.atlas = std::move(*decoded);
+  }
   base_ = std::move(base);
   if (auto started = restart(); !started) return started;
-  // Uses the refiner's positions, because those of `base_` are cell numbers.
+  // Takes the refiner's positions, because the positions in `base_` are cell numbers.
   centre_ = box_centre(refiner_->positions());
   return {};
 }
@@ -114,9 +133,8 @@ Expected<bool> BrowserModel::want(const Want& goal) {
   return pursue(goal, needs_restart_ || exceeds(goal));
 }
 
-// A camera's detail target never reduces detail, because regions that left the view may become
-// visible again. Restarts only if a restart is pending or the model holds more than the limits
-// allow.
+// A view never reduces detail, because regions that left the view may become visible again.
+// Restarts only if a restart is pending or the model exceeds the limits.
 Expected<bool> BrowserModel::want(const View& view, double most_triangles) {
   if (!refiner_)
     return fail(ErrorCode::kState, "the base mesh must come first; give it before the chunks");
@@ -191,6 +209,14 @@ double BrowserModel::bytes_held() const {
   return bytes;
 }
 
+std::uint32_t BrowserModel::displayed_vertices() const {
+  return is_textured() ? refiner_->wedges().size() : refiner_->vertex_count();
+}
+
+VertexId BrowserModel::parent_of(VertexId v) const {
+  return is_textured() ? refiner_->wedges().parent(v) : refiner_->parent_of(v);
+}
+
 void BrowserModel::display() {
   shown_ = {};
   vertices_out_ = faces_out_ = 0;
@@ -199,15 +225,21 @@ void BrowserModel::display() {
 }
 
 std::uint32_t BrowserModel::next_vertices() {
-  const auto end =
-      static_cast<VertexId>(std::min<std::size_t>(shown_.size(), vertices_out_ + kPiece));
+  const VertexId last = shown_.empty() ? 0 : displayed_vertices();
+  const VertexId end = std::min(last, vertices_out_ + kPiece);
   const std::uint32_t count = end - vertices_out_;
   positions_.clear();
   normals_.clear();
   attributes_.truncate(0);
   lattice_positions_.clear();
-  for (; vertices_out_ < end; ++vertices_out_)
-    add_vertex(vertices_out_);
+  coordinates_.clear();
+  for (; vertices_out_ < end; ++vertices_out_) {
+    if (is_textured()) {
+      add_wedge(refiner_->wedges()[vertices_out_]);
+    } else {
+      add_vertex(vertices_out_);
+    }
+  }
   if (count == 0) shown_ = {}, vertices_out_ = 0;
   return count;
 }
@@ -218,6 +250,13 @@ void BrowserModel::add_vertex(VertexId v) {
   normals_.push_back({to_snorm(n.x), to_snorm(n.y), to_snorm(n.z), 0});
   lattice_positions_.push_back(refiner_->positions()[v]);
   append_displayed(attributes_, refiner_->attributes(), v);
+}
+
+void BrowserModel::add_wedge(const Wedge& wedge) {
+  add_vertex(wedge.vertex);
+  const auto side = static_cast<float>(manifest_->texture.side);
+  coordinates_.push_back(
+      {static_cast<float>(wedge.at.x) / side, static_cast<float>(wedge.at.y) / side});
 }
 
 Vec3 BrowserModel::shown(VertexId v) const {
@@ -242,11 +281,12 @@ Vec3 BrowserModel::normal(VertexId v) const {
 
 std::uint32_t BrowserModel::next_faces() {
   const Connectivity& mesh = refiner_->connectivity();
+  const Wedges& wedges = refiner_->wedges();
+  const auto vertex = [&](Corner c) { return is_textured() ? wedges.of(c) : mesh.vertex(c); };
   faces_.clear();
   for (; faces_out_ < mesh.face_count() && faces_.size() < kPiece; ++faces_out_) {
     const Corner c = 3 * faces_out_;
-    if (mesh.is_real(faces_out_))
-      faces_.push_back({mesh.vertex(c), mesh.vertex(c + 1), mesh.vertex(c + 2)});
+    if (mesh.is_real(faces_out_)) faces_.push_back({vertex(c), vertex(c + 1), vertex(c + 2)});
   }
   return static_cast<std::uint32_t>(faces_.size());
 }
@@ -271,7 +311,19 @@ const std::vector<double>& BrowserModel::summary() {
   for (const ChunkInfo& chunk : m.chunks) {
     add({number(chunk.level), number(chunk.region), number(chunk.offset), number(chunk.length)});
   }
+  if (!m.texture.empty()) summarise_texture();
   return summary_;
+}
+
+void BrowserModel::summarise_texture() {
+  const TextureInfo& t = manifest_->texture;
+  const auto add = [this](auto... values) {
+    (summary_.push_back(static_cast<double>(values)), ...);
+  };
+  add(t.atlas_offset, t.atlas_length, static_cast<int>(t.alpha_mode), t.alpha_cutoff,
+      t.is_double_sided, t.is_unlit, t.pictures.size(), t.in_head);
+  for (const PictureInfo& picture : t.pictures)
+    add(static_cast<int>(picture.role), picture.side, picture.offset, picture.length);
 }
 
 }  // namespace vitrine::inline codec

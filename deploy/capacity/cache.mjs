@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulates nginx's disk cache, which removes the least recently used files first. Each file
-// occupies whole disk blocks. A manager frees space at intervals, not at each request.
+// occupies whole disk blocks. Like nginx's cache manager, the simulation frees space at intervals,
+// not at each request.
 
 // Bytes of a disk block, and bytes of the response header with which a cache file begins.
 const kBlock = 4096, kHeader = 1024;
@@ -18,7 +19,7 @@ export class DiskCache {
     this.capacity = capacity;
   }
 
-  /** Requests a file and caches it. Returns whether it was cached before. */
+  /** Requests a file and caches it. Returns whether it was in the cache before. */
   ask(key, bytes) {
     const size = this.#files.get(key);
     this.#files.delete(key);
@@ -27,7 +28,7 @@ export class DiskCache {
     return size !== undefined;
   }
 
-  /** Frees space, as the manager does at intervals. */
+  /** Removes the least recently used files until the cache has its configured size. Called at intervals. */
   makeRoom() {
     for (const [key, size] of this.#files) {
       if (this.#used < this.capacity) return;
@@ -37,11 +38,14 @@ export class DiskCache {
   }
 }
 
-/** Simulates `looks` at `models` through the cache. Returns the number of looks, the numbers of chunks
- *  and bytes that visitors requested, and how many of them came from the origin. Streams bypass the
- *  cache; their bytes are counted separately. The manager runs after every `managed` chunk requests. */
+/**
+ * Simulates all `looks` (visitors.mjs) at `models` through the cache. Returns the number of looks,
+ * the numbers of chunks and bytes that visitors requested, and how many of them came from the
+ * origin. Streams bypass the cache, and their bytes are counted separately. The cache manager runs
+ * after every `managed` chunk requests.
+ */
 export function serve(looks, models, cache, managed) {
-  const first = [0];  // number of each model's first chunk
+  const first = [0];  // number of each model's first chunk, counted over all models
   for (const chunks of models) first.push(first.at(-1) + chunks.length);
   const sum = { looks: 0, chunks: 0, bytes: 0, originChunks: 0, originBytes: 0, streamBytes: 0 };
   for (const { model, chunks, streamed } of looks) {

@@ -10,22 +10,27 @@ import { catalogue, chance, looks } from "./visitors.mjs";
 const kScenario = {
   seed: 1,
   models: { count: 1000, bytes: 1.8e6, chunkBytes: 16384 },
-  // exponent: exponent of Zipf's law. looks: mean number of models per visit. seconds: mean time
-  // per look. streams: share of looks that use a WebSocket.
+  // exponent: exponent of Zipf's law. looks: mean number of models that a visitor opens. seconds:
+  // mean time for which a visitor looks at one model. streams: share of the models that are
+  // streamed over a WebSocket.
   visitor: {
     exponent: 0.8, looks: 4, seconds: 30, streams: 0.1,
     lines: [{ share: 0.2, bytesPerSecond: 1e5 }, { share: 0.5, bytesPerSecond: 1e6 }, { share: 0.3, bytesPerSecond: 5e6 }],
   },
   visits: 8000,  // simulated visits; only the second half is counted
-  caches: [0.05, 0.1, 0.25, 0.5, 1.01],  // cache sizes as shares of the space for all chunks
-  managed: 5000,  // chunk requests between two runs of the cache's manager
-  answers: { count: 4, bytes: 40e3 },  // uncached responses per look: page, model, manifest, head
-  // Rates measured for one core, and the byte rate of one gigabit per second (CAPACITY.md).
+  caches: [0.05, 0.1, 0.25, 0.5, 1.01],  // cache sizes, as shares of the space that all chunks need
+  managed: 5000,  // chunk requests between two runs of the cache manager
+  // Uncached responses for each opened model: page, model, manifest, head.
+  answers: { count: 4, bytes: 40e3 },
+  // Responses per second measured on one core, and bytes per second of a link of one gigabit per
+  // second (CAPACITY.md).
   machine: { chunksPerSecond: 73220, answersPerSecond: 88570, bytesPerSecond: 117e6 },
 };
 
-/** Returns the share of bytes from the cache, the origin's bytes per look, and the numbers of viewers
- *  that one core and one gigabit per second can serve. */
+/**
+ * Returns the share of bytes from the cache, the bytes that the origin sends for each opened model,
+ * and the numbers of viewers that one core and one gigabit per second can serve.
+ */
 export function load(sum, { answers, machine, visitor }) {
   const chunks = sum.originChunks / sum.looks;
   const streamed = sum.streamBytes / sum.looks;

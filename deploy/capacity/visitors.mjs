@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulated visitors. A visitor chooses models by Zipf's law and looks at a random number of them,
-// each for a random time. The connections of visitors have several speeds.
+// Simulates visitors. A visitor chooses models by Zipf's law and looks at a random number of them,
+// each for a random time. The connections of visitors have different speeds.
 
-/** Returns a generator of random numbers from 0 to 1 (mulberry32). A seed always gives the same numbers. */
+/** Returns a generator of random numbers from 0 to 1 (mulberry32). The same seed always gives the same numbers. */
 export function chance(seed) {
   return () => {
     seed = (seed + 0x6d2b79f5) | 0;
@@ -12,8 +12,11 @@ export function chance(seed) {
   };
 }
 
-/** Returns `count` models. A model is the list of the sizes of its chunks, the coarsest first. The models
- *  have `bytes` on average; the largest has nine times the size of the smallest. Chunks have `chunkBytes`. */
+/**
+ * Returns `count` models. Each model is a list of its chunks' sizes in bytes, coarsest chunk first.
+ * The models have about `bytes` bytes on average. The largest possible model is nine times as large
+ * as the smallest. Each chunk has `chunkBytes` bytes.
+ */
 export function catalogue({ count, bytes, chunkBytes }, random) {
   const mean = 8 / 3 / Math.log(9);  // the mean of 3 ** (2 x - 1) for x from 0 to 1
   return Array.from({ length: count }, () => {
@@ -22,8 +25,10 @@ export function catalogue({ count, bytes, chunkBytes }, random) {
   });
 }
 
-/** Returns a function that draws an index from 0 to count - 1 by Zipf's law. Index r is
- *  (r + 1) ** -exponent times as likely as index 0. */
+/**
+ * Returns a function that picks an index from 0 to count - 1 at random by Zipf's law. Index r is
+ * (r + 1) ** -exponent times as likely as index 0.
+ */
 function zipf(count, exponent, random) {
   const sums = new Float64Array(count);
   for (let rank = 0, sum = 0; rank < count; ++rank) sums[rank] = sum += (rank + 1) ** -exponent;
@@ -39,14 +44,20 @@ function zipf(count, exponent, random) {
   };
 }
 
-/** Draws one of the connections `lines`, {share, bytesPerSecond}. Shares are probabilities and add up to 1. */
+/**
+ * Picks a connection at random from `lines`, a list of {share, bytesPerSecond}. A share is the
+ * probability of the connection; the shares add up to 1.
+ */
 function line(lines, random) {
   let left = random();
   return lines.find(({ share }) => (left -= share) < 0) ?? lines.at(-1);
 }
 
-/** Generates the looks of `visits` visits. A look states the model, how many of its chunks arrived, and
- *  whether they came over a stream. simulate.mjs describes the members of `visitor`. */
+/**
+ * Simulates `visits` visitors. Yields one record for each model that a visitor opens: the model,
+ * how many of its chunks arrived, and whether they came over a stream. simulate.mjs describes the
+ * members of `visitor`.
+ */
 export function* looks(models, visits, visitor, random) {
   const pick = zipf(models.length, visitor.exponent, random);
   for (let visit = 0; visit < visits; ++visit) {

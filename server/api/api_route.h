@@ -24,10 +24,11 @@ struct RouteDoc {
   std::string_view request = {};     // schema or media type of the request body; empty if none
   unsigned status = 200;             // HTTP status on success
   std::string_view response = {};    // schema or media type of the response body; empty if none
+  bool may_be_gzip = false;          // whether a client without a token may get gzip
 };
 
-// A route of the API. `doc` is used only for the OpenAPI document. The other members are those of
-// Route.
+// A route of the API. `doc` documents it in the OpenAPI document. The other members mean the same
+// as in Route.
 struct ApiRoute {
   Method method = Method::kGet;
   std::string_view path;

@@ -25,8 +25,8 @@ Response model_chunk(const std::shared_ptr<const PublishedModel>& model, const R
 
 }  // namespace
 
-// Serves most chunk requests. Looks up the chunk in memory only. Returns nullopt if it is not found
-// there. The chunk's bytes are sent from the page cache.
+// Serves most chunk requests. Looks for the chunk only among the models in memory, and returns
+// nullopt if it is not there. The chunk's bytes are sent from the page cache.
 static std::optional<Response> show_cached_chunk(const Request& request, Services& services) {
   const auto chunk = services.models.cached_chunk(sha256_in(request));
   if (!chunk) return std::nullopt;
@@ -65,7 +65,9 @@ static constexpr ApiRoute kChunkRoutes[] = {
      .executor = Executor::kWorker,
      .quick = show_cached_chunk,
      .doc = {.id = "getChunk",
-             .summary = "Returns the layer or base mesh with this hash. Its content never changes.",
+             .summary =
+                 "Returns the layer, base mesh, atlas, picture or original with this hash. Its "
+                 "content never changes.",
              .response = "application/octet-stream"}},
     {.method = Method::kGet,
      .path = "/api/v1/models/{id}/chunks/{sha256}",

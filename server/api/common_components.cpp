@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Schemas and parameters of the OpenAPI document that several nouns of the API use.
+// Defines the schemas and parameters of the OpenAPI document that several nouns of the API use.
 #include "server/api/routes.h"
 
 namespace vitrine::server {
@@ -11,6 +11,10 @@ static constexpr std::string_view kCommonComponents = R"json({
 "responses": {
   "Problem": {"description": "The fault, and the parameters that cause it",
     "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}}
+},
+"headers": {
+  "ContentEncoding": {"description": "Present if the body is compressed", "schema": {"const": "gzip"}},
+  "Vary": {"description": "The request fields that choose the representation, such as Accept-Encoding", "schema": {"type": "string"}}
 },
 "parameters": {
   "path.id": {"name": "id", "in": "path", "required": true, "schema": {"$ref": "#/components/schemas/Id"}},

@@ -2,15 +2,30 @@
 // Decodes a published model into a mesh at a requested level of detail.
 #pragma once
 
+#include <optional>
+
+#include "codec/build/exported_texture.h"
+#include "codec/build/refine.h"
+#include "codec/mesh/texturing.h"
 #include "codec/mesh/triangle_mesh.h"
 #include "codec/plan/planner.h"
 #include "server/store/published_model.h"
 
 namespace vitrine::server {
 
+struct DecodedModel {
+  TriangleMesh mesh;  // without vertex colours if there is a texture
+  // Textures in the form that write_textured_mesh() requires; empty without a texture.
+  Texturing texturing;
+  ShownDetail detail;
+};
+
 // Returns the mesh of the model at the level of detail `want`, in model units and with the display
-// filter applied. Decodes in this process, without a sandbox, since the file was checked when it
-// was published.
-Expected<TriangleMesh> decoded_model(const PublishedModel& model, const Want& want);
+// filter applied. `texture_side` is the largest side of the pictures in pixels, and `roles` are the
+// roles of the pictures, as in pictures_to_export(); 0 or no role: no texture. Decodes in this
+// process, without a sandbox, since the file was checked when it was published.
+Expected<DecodedModel> decoded_model(const PublishedModel& model, const Want& want,
+                                     std::optional<std::uint32_t> texture_side,
+                                     PictureRoles roles = PictureRoles().set());
 
 }  // namespace vitrine::server

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "codec/core/parse_number.h"
 
@@ -35,7 +37,8 @@ tl::expected<Want, std::string> parse_want(std::string_view name, std::string_vi
   return WantTriangles{*count};
 }
 
-// Reads `kbps` (kilobits per second) and `seconds`, and converts them into a number of bytes.
+// Reads the bandwidth `kbps` (kilobits per second) and the time `seconds`, and requests as many
+// bytes as arrive in that time.
 tl::expected<DetailRequest, ParameterFault> parse_line(const Query& query) {
   double kbps = 0, seconds = 0;
   for (const auto& [name, value] : {std::pair("kbps", &kbps), std::pair("seconds", &seconds)}) {
@@ -61,11 +64,13 @@ bool saves_data(const RequestHeader& header) {
   return beast::iequals(header["Save-Data"], "on");
 }
 
-tl::expected<DetailRequest, ParameterFault> read_detail_request(const Query& query,
-                                                                const RequestHeader& header,
-                                                                const Manifest& manifest) {
+tl::expected<DetailRequest, ParameterFault> read_detail_request(
+    const Query& query, const RequestHeader& header, const Manifest& manifest,
+    std::span<const std::string_view> other) {
   const auto levels = static_cast<std::uint32_t>(manifest.levels.size());
-  if (const auto name = query.unknown(kParameters))
+  std::vector<std::string_view> known(std::begin(kParameters), std::end(kParameters));
+  known.insert(known.end(), other.begin(), other.end());
+  if (const auto name = query.unknown(known))
     return tl::unexpected(ParameterFault{std::string(*name), "unknown here"});
   std::optional<DetailRequest> detail;
   if (query.get("kbps") || query.get("seconds")) {

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "codec/core/expected.h"
 #include "codec/plan/planner.h"
@@ -24,24 +26,25 @@ struct DetailRequest {
   double kbps = 0;     // the client's bandwidth in kilobits per second; 0: unknown
 };
 
-// Reads the detail request from a query. Without detail parameters, requests the whole model, or
-// at most kSavedDataBytes bytes of it if the header has `Save-Data: on`.
-tl::expected<DetailRequest, ParameterFault> read_detail_request(const Query& query,
-                                                                const RequestHeader& header,
-                                                                const Manifest& manifest);
+// Reads the detail request from a query. Without detail parameters, requests the whole model, or at
+// most kSavedDataBytes bytes of it if the header has `Save-Data: on`. Fails if the query has a
+// parameter that is neither a detail parameter nor in `other`.
+tl::expected<DetailRequest, ParameterFault> read_detail_request(
+    const Query& query, const RequestHeader& header, const Manifest& manifest,
+    std::span<const std::string_view> other = {});
 
 bool saves_data(const RequestHeader& header);
 
 // Returns a key under which the result of `want` can be cached. Equal requests have equal keys,
-// however they are written. Requests for more triangles than the whole model has share one key.
-// The same holds for bytes.
+// however they are written. All requests for more triangles than the model has share one key, and
+// so do all requests for more bytes than it has.
 std::string key_of(const Want& want, const Manifest& manifest);
 
 // The result of a detail request, estimated from the manifest without decoding.
 struct DetailForecast {
   std::uint32_t level = 0;  // the finest complete level
-  // Number of triangles, at least that of `level`. If only a part of the last chunk is used, the
-  // number may be off by the triangles that one split adds, at most two.
+  // Estimated number of triangles, at least that of `level`. The estimate is exact unless only part
+  // of the last chunk is used; then it is off by at most two triangles.
   std::uint64_t triangles = 0;
   std::uint64_t bytes = 0;  // total size of the header, the base mesh and the chunks used
   double error = 0;         // upper bound of the error of `level`, in model units

@@ -19,7 +19,7 @@ constexpr std::size_t kMostBytes = 64 << 20;  // largest accepted response in by
 // Short, since the daemons are on one local network.
 constexpr std::chrono::seconds kConnectTimeout{3};
 constexpr std::chrono::seconds kQuickTimeout{5};
-// Long enough for the turntable to finish a motion first.
+// Long enough for the turntable to finish a motion before the other daemon responds.
 constexpr std::chrono::seconds kRevolutionTimeout{60};
 
 std::vector<std::string> fields_of(const Request& request) {

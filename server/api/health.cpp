@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <sys/statvfs.h>
 
 #include "server/api/handlers.h"
 #include "server/api/job_json.h"
 #include "server/api/routes.h"
 #include "server/api/services.h"
+#include "server/jobs/free_space.h"
 #include "server/messages/problem.h"
 
 namespace vitrine::server {
@@ -37,6 +37,20 @@ void append_models(std::string& text, PublishedModels& models) {
                 models.bytes());
 }
 
+void append_scrub(std::string& text, PublishedModels& models, const Scrubber& scrubber) {
+  append_metric(text, "vitrine_damaged_objects", "", "gauge",
+                "Stored files that are known to be damaged or missing.", models.damaged().size());
+  append_metric(text, "vitrine_catalogue_faults", "", "gauge",
+                "Faults found in the last check of the catalogue.", scrubber.catalogue_faults);
+  append_metric(text, "vitrine_scrub_objects_total", "", "counter",
+                "Stored files that were checked in the background.", scrubber.objects);
+  append_metric(text, "vitrine_scrub_bytes_total", "", "counter",
+                "Bytes that were read to check stored files in the background.", scrubber.bytes);
+  append_metric(text, "vitrine_scrub_finished_timestamp_seconds", "", "gauge",
+                "End of the last whole background check, in seconds since 1970; 0 if none.",
+                static_cast<std::uint64_t>(scrubber.finished.load()));
+}
+
 // Appends the number of jobs in each state. If the catalogue cannot be read, appends nothing;
 // /readyz then fails and logs the reason.
 void append_jobs(std::string& text, JobQueue& jobs) {
@@ -47,12 +61,15 @@ void append_jobs(std::string& text, JobQueue& jobs) {
   }
 }
 
-void append_disk(std::string& text, const std::filesystem::path& data) {
-  struct statvfs disk {};
-  if (::statvfs(data.c_str(), &disk) != 0) return;
+void append_disk(std::string& text, const Settings& settings) {
+  const std::uint64_t free = free_space(settings);
   append_metric(text, "vitrine_data_free_bytes", "", "gauge",
-                "Free bytes for this process on the disk of the data folder.",
-                std::uint64_t{disk.f_bavail} * disk.f_frsize);
+                "Free bytes for this process on the disk of the data folder or of the uploads, "
+                "whichever has fewer.",
+                free);
+  append_metric(text, "vitrine_disk_nearly_full", "", "gauge",
+                "1 if that is less than the setting disk-reserve.",
+                free < settings.disk_reserve_bytes ? 1 : 0);
 }
 
 }  // namespace
@@ -63,14 +80,21 @@ static Response show_livez(const Request&, Services&) {
 }
 
 // Answers the readiness probe, which tells whether to route requests to this daemon. Fails while
-// the daemon starts or drains, and if it cannot read the catalogue.
+// the daemon starts or drains, and if it cannot read the catalogue. A nearly full disk is only
+// reported: the daemon can still serve every model.
 static Response show_readyz(const Request& request, Services& services) {
   if (!services.ready.load()) return problem(503, "", request.id);
   if (const auto revision = services.catalogue.revision(); !revision) {
     services.errors.event(Severity::kError, revision.error().message);
     return problem(503, "", request.id);
   }
-  return plain_text("ready\n");
+  const Settings& settings = services.settings.get();
+  const std::uint64_t free = free_space(settings);
+  if (free >= settings.disk_reserve_bytes) return plain_text("ready\n");
+  return plain_text(
+      fmt::format("ready, but the disk is nearly full: {} bytes are free; remove models, add disk "
+                  "space or lower disk-reserve\n",
+                  free));
 }
 
 static Response show_metrics(const Request&, Services& services) {
@@ -79,8 +103,9 @@ static Response show_metrics(const Request&, Services& services) {
                 "The running version, in the label.", 1);
   append_exports(samples, services.exports);
   append_models(samples, services.models);
+  append_scrub(samples, services.models, services.scrubber);
   append_jobs(samples, services.scans.jobs());
-  append_disk(samples, services.settings.get()->data);
+  append_disk(samples, services.settings.get());
   Response response = plain_text(std::move(samples));
   response.type = "text/plain; version=0.0.4; charset=utf-8";
   return response;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves IIIF Presentation 3.0 manifests of models. The canvas of a manifest shows the model's
-// poster, which every IIIF viewer can display. The model itself is a `rendering` of the canvas, for
-// viewers that support glTF. Version 4 of the standard adds scenes, but is still a draft that
-// viewers do not read.
+// Serves IIIF manifests of models (Presentation 3.0 and 4.0), and a collection of all of them. In a
+// manifest of version 3, a canvas shows the model's poster, which every IIIF viewer can display,
+// and the model itself is a `rendering`. In a manifest of version 4, a scene shows the model.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "server/api/handlers.h"
@@ -15,8 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kType =
-    "application/ld+json;profile=\"http://iiif.io/api/presentation/3/context.json\"";
+constexpr std::string_view kContext3 = "http://iiif.io/api/presentation/3/context.json";
+constexpr std::string_view kContext4 = "http://iiif.io/api/presentation/4/context.json";
+
+Response iiif_answer(const Json& json) {
+  const std::string type = fmt::format("application/ld+json;profile=\"{}\"",
+                                       json.at("@context").get_ref<const std::string&>());
+  return revalidated(type, json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
 
 Json in_english(std::string_view text) {
   return {{"en", {text}}};
@@ -74,28 +81,50 @@ Json renderings(const std::string& model) {
                        {"format", "application/ply"}}});
 }
 
-// Whether `licence` may be the value of the IIIF property `rights`, which must be an http URL (not
-// https) of one of these two sites.
-bool may_be_rights(const std::string& licence) {
-  return licence.starts_with("http://creativecommons.org/") ||
-         licence.starts_with("http://rightsstatements.org/");
+Json label_of(const ModelRecord& record) {
+  return in_no_language(record.title.empty() ? record.id.to_string() : record.title);
 }
 
-Json manifest(const ModelRecord& record, const std::string& origin) {
+Json thumbnails(const std::string& model) {
+  return Json::array({picture(model, kThumbnailWidth)});
+}
+
+std::string text_of(const ModelRecord& record, const std::string& element) {
+  const auto found = record.more.find(element);
+  return found == record.more.end() ? std::string() : found->second;
+}
+
+// Returns the institution that publishes the model.
+Json provider(const std::string& publisher, const std::string& origin) {
+  return Json::array({{{"id", origin + "/"},
+                       {"type", "Agent"},
+                       {"label", in_no_language(publisher)},
+                       {"homepage", Json::array({{{"id", origin + "/"},
+                                                  {"type", "Text"},
+                                                  {"label", in_no_language(publisher)},
+                                                  {"format", "text/html"}}})}}});
+}
+
+// Returns a manifest without its items: what versions 3 and 4 have in common.
+Json description(const ModelRecord& record, const std::string& origin, std::string_view context,
+                 const std::string& self) {
   const std::string id = record.id.to_string();
   const std::string model = origin + "/api/v1/models/" + id;
-  const std::string self = origin + "/api/v1/iiif/" + id;
-  Json json = {{"@context", "http://iiif.io/api/presentation/3/context.json"},
+  Json json = {{"@context", context},
                {"id", self + "/manifest.json"},
                {"type", "Manifest"},
-               {"label", in_no_language(record.title.empty() ? id : record.title)},
+               {"label", label_of(record)},
                {"metadata", metadata(record)}};
+  if (const std::string text = text_of(record, "description"); !text.empty())
+    json["summary"] = in_no_language(text);
   if (!record.rights.empty()) {
     json["requiredStatement"] = {{"label", in_english("Rights")},
                                  {"value", in_no_language(record.rights)}};
   }
-  if (may_be_rights(record.licence)) json["rights"] = record.licence;
-  json["thumbnail"] = Json::array({picture(model, kThumbnailWidth)});
+  if (const auto rights = rights_url(record.licence)) json["rights"] = *rights;
+  if (const std::string publisher = text_of(record, "publisher"); !publisher.empty())
+    json["provider"] = provider(publisher, origin);
+  json["thumbnail"] = thumbnails(model);
   json["homepage"] = Json::array({{{"id", origin + "/models/" + id},
                                    {"type", "Text"},
                                    {"label", in_english("Interactive viewer")},
@@ -105,7 +134,45 @@ Json manifest(const ModelRecord& record, const std::string& origin) {
                                   {"type", "Dataset"},
                                   {"label", in_english("Levels of detail, sizes and errors")},
                                   {"format", "application/json"}}});
-  json["items"] = Json::array({canvas(self, model)});
+  return json;
+}
+
+// Returns a scene that shows the model. A GLB is in metres, if the model's unit is known.
+Json scene(const std::string& self, const std::string& model, const ModelRecord& record) {
+  const std::string id = self + "/scene";
+  Json annotation = {{"id", id + "/model/annotation"},
+                     {"type", "Annotation"},
+                     {"motivation", Json::array({"painting"})},
+                     {"body",
+                      {{"id", model + "/export.glb"},
+                       {"type", "Model"},
+                       {"label", in_english("3D model (glTF binary)")},
+                       {"format", "model/gltf-binary"}}},
+                     {"target", {{"id", id}, {"type", "Scene"}}}};
+  Json page = {{"id", id + "/model"},
+               {"type", "AnnotationPage"},
+               {"items", Json::array({std::move(annotation)})}};
+  Json json = {{"id", id}, {"type", "Scene"}, {"label", label_of(record)}};
+  if (!record.unit.empty())
+    json["spatialScale"] = {{"type", "Quantity"}, {"quantityValue", 1.0}, {"unit", "m"}};
+  json["items"] = Json::array({std::move(page)});
+  return json;
+}
+
+Json collection(const std::vector<ModelRecord>& models, const std::string& origin) {
+  Json json = {{"@context", kContext3},
+               {"id", origin + "/api/v1/iiif/collection.json"},
+               {"type", "Collection"},
+               {"label", in_english("All objects")},
+               {"items", Json::array()}};
+  for (const ModelRecord& record : models) {
+    const std::string id = record.id.to_string();
+    json["items"].push_back(
+        {{"id", fmt::format("{}/api/v1/iiif/{}/manifest.json", origin, id)},
+         {"type", "Manifest"},
+         {"label", label_of(record)},
+         {"thumbnail", thumbnails(fmt::format("{}/api/v1/models/{}", origin, id))}});
+  }
   return json;
 }
 
@@ -113,9 +180,28 @@ Json manifest(const ModelRecord& record, const std::string& origin) {
 
 static Response show_iiif_manifest(const Request& request, Services& services) {
   return with_model(request, services, [&](const auto& model) {
-    const Json json = manifest(model->record(), origin_of(request, services));
-    return revalidated(kType, json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    const std::string origin = origin_of(request, services), id = model->record().id.to_string();
+    const std::string self = origin + "/api/v1/iiif/" + id;
+    Json json = description(model->record(), origin, kContext3, self);
+    json["items"] = Json::array({canvas(self, origin + "/api/v1/models/" + id)});
+    return iiif_answer(json);
   });
+}
+
+static Response show_iiif_scene(const Request& request, Services& services) {
+  return with_model(request, services, [&](const auto& model) {
+    const std::string origin = origin_of(request, services), id = model->record().id.to_string();
+    const std::string self = origin + "/api/v1/iiif/4/" + id;
+    Json json = description(model->record(), origin, kContext4, self);
+    json["items"] = Json::array({scene(self, origin + "/api/v1/models/" + id, model->record())});
+    return iiif_answer(json);
+  });
+}
+
+static Response show_iiif_collection(const Request& request, Services& services) {
+  const auto models = all_public(services);
+  if (!models) return internal_error(models.error(), request, services);
+  return iiif_answer(collection(*models, origin_of(request, services)));
 }
 
 static Response redirect_to_iiif(const Request& request, Services& services) {
@@ -130,6 +216,12 @@ static constexpr std::string_view kIiifComponents = R"json({
 "schemas": {
   "IiifManifest": {"type": "object", "required": ["@context", "id", "type", "label", "items"], "properties": {
     "@context": {"const": "http://iiif.io/api/presentation/3/context.json"}, "id": {"type": "string"}, "type": {"const": "Manifest"},
+    "label": {"type": "object"}, "items": {"type": "array", "items": {"type": "object"}}}},
+  "IiifScene": {"type": "object", "required": ["@context", "id", "type", "label", "items"], "properties": {
+    "@context": {"const": "http://iiif.io/api/presentation/4/context.json"}, "id": {"type": "string"}, "type": {"const": "Manifest"},
+    "label": {"type": "object"}, "items": {"type": "array", "items": {"type": "object"}}}},
+  "IiifCollection": {"type": "object", "required": ["@context", "id", "type", "label", "items"], "properties": {
+    "@context": {"const": "http://iiif.io/api/presentation/3/context.json"}, "id": {"type": "string"}, "type": {"const": "Collection"},
     "label": {"type": "object"}, "items": {"type": "array", "items": {"type": "object"}}}}
 }
 })json";
@@ -142,7 +234,26 @@ static constexpr ApiRoute kIiifRoutes[] = {
      .doc = {.id = "getIiifManifest",
              .summary = "Returns the model's IIIF Presentation 3.0 manifest: a canvas with the "
                         "poster, and the model as its rendering.",
-             .response = "IiifManifest"}},
+             .response = "IiifManifest",
+             .may_be_gzip = true}},
+    {.method = Method::kGet,
+     .path = "/api/v1/iiif/4/{id}/manifest.json",
+     .handler = show_iiif_scene,
+     .executor = Executor::kWorker,
+     .doc = {.id = "getIiifScene",
+             .summary = "Returns the model's IIIF Presentation 4.0 manifest: a scene with the "
+                        "model.",
+             .response = "IiifScene",
+             .may_be_gzip = true}},
+    {.method = Method::kGet,
+     .path = "/api/v1/iiif/collection.json",
+     .handler = show_iiif_collection,
+     .executor = Executor::kWorker,
+     .doc = {.id = "getIiifCollection",
+             .summary = "Returns an IIIF Presentation 3.0 collection of all published models, "
+                        "newest first; at most 10,000.",
+             .response = "IiifCollection",
+             .may_be_gzip = true}},
     {.method = Method::kGet,
      .path = "/iiif/{id}/manifest.json",
      .handler = redirect_to_iiif,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "server/api/published.h"
 #include "server/messages/http_header.h"
@@ -18,6 +19,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kKinds[] = {"scan", "calibrate", "reprocess", "publish"};
 constexpr std::string_view kScannerStates[] = {"idle", "busy", "unreachable"};
+constexpr std::string_view kLaserStates[] = {"unknown", "off", "on"};
+constexpr std::string_view kMotorStates[] = {"unknown", "off", "holding", "turning"};
 constexpr std::size_t kMaxKey = 200;
 
 template <class Tag>
@@ -31,6 +34,14 @@ Json text_or_null(const std::string& text) {
 
 Json number_or_null(const auto& number) {
   return number ? Json(*number) : Json(nullptr);
+}
+
+Json lines_json(const std::string& text) {
+  Json lines = Json::array();
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
 }
 
 std::string_view state_of_scan(const JobRecord& job) {
@@ -48,11 +59,21 @@ Json rows_json(const std::optional<ScannedRows>& rows) {
   return {{"empty", rows->empty}, {"saturated", rows->saturated}, {"doubled", rows->doubled}};
 }
 
+// Returns the state of a laser or a motor, and the time since which it has been in that state. The
+// time is null if the state has never been known.
+Json power_json(std::string_view state, acquisition::BoardPower::Clock::time_point since) {
+  const auto milliseconds =
+      std::chrono::duration_cast<std::chrono::milliseconds>(since.time_since_epoch()).count();
+  return {{"state", state},
+          {"since", milliseconds == 0 ? Json(nullptr) : Json(timestamp(milliseconds))}};
+}
+
 }  // namespace
 
 JobStatus without_reasons(JobStatus job) {
   if (!job.record.error.empty()) job.record.error = "send a token to see why";
   if (!job.note.empty()) job.note = "waiting for the scanner";
+  job.record.repairs.clear();
   return job;
 }
 
@@ -69,6 +90,7 @@ Json job_json(const JobStatus& job) {
           {"scanner", text_or_null(record.scanner)},
           {"scan", id_or_null(record.scan)},
           {"model", id_or_null(record.model)},
+          {"repairs", lines_json(record.repairs)},
           {"created", timestamp(record.created)},
           {"ended", record.ended == 0 ? Json(nullptr) : Json(timestamp(record.ended))}};
 }
@@ -96,6 +118,7 @@ Json scan_json(const ScanInfo& scan) {
 }
 
 Json scanner_json(const ScannerStatus& scanner) {
+  const acquisition::BoardPower& power = scanner.power;
   Json json = {{"id", scanner.name},
                {"name", scanner.name},
                {"state", kScannerStates[static_cast<std::size_t>(scanner.state)]},
@@ -104,6 +127,10 @@ Json scanner_json(const ScannerStatus& scanner) {
                {"calibration", nullptr},
                {"scan", id_or_null(scanner.scan)},
                {"problem", text_or_null(scanner.problem)}};
+  json["laser"] =
+      power_json(kLaserStates[static_cast<std::size_t>(power.laser)], power.laser_since);
+  json["motor"] =
+      power_json(kMotorStates[static_cast<std::size_t>(power.motor)], power.motor_since);
   if (const auto& seen = scanner.identity) {
     json["camera"] = {{"vendor", seen->camera.vendor},
                       {"model", seen->camera.model},
@@ -204,6 +231,28 @@ template tl::expected<PageOf<ModelId>, std::vector<ParameterFault>> read_page(co
 template tl::expected<PageOf<JobId>, Response> read_page(const Request&);
 template tl::expected<PageOf<ScanId>, Response> read_page(const Request&);
 template tl::expected<PageOf<TokenId>, Response> read_page(const Request&);
+
+void link_next(const std::optional<std::string>& cursor, const Request& request,
+               Response& response) {
+  if (!cursor) return;
+  std::string target(request.path);
+  target += '?';
+  for (std::string_view left = request.query; !left.empty();) {
+    const std::string_view parameter = left.substr(0, left.find('&'));
+    left.remove_prefix(std::min(left.size(), parameter.size() + 1));
+    if (!parameter.starts_with("cursor=")) target.append(parameter) += '&';
+  }
+  response.fields.emplace_back("Link", fmt::format("<{}cursor={}>; rel=\"next\"", target, *cursor));
+}
+
+Response list_answer(std::string_view name, Json items, const std::optional<std::string>& cursor,
+                     const Request& request) {
+  Json json = {{std::string(name), std::move(items)}, {"next", nullptr}};
+  if (cursor) json["next"] = *cursor;
+  Response response = json_answer(json);
+  link_next(cursor, request, response);
+  return response;
+}
 
 Response token_needed(const Request& request) {
   Response response = problem(401, "send a token: Authorization: Bearer TOKEN", request.id);

@@ -15,7 +15,7 @@ namespace vitrine::server {
 inline constexpr std::string_view kJobStates[] = {"queued", "running", "paused",
                                                   "done",   "failed",  "cancelled"};
 
-// Returns the job's status as clients without a token may see it: without messages, which could
+// Returns the job's status as clients without a token may see it. Omits messages, which could
 // reveal paths on the server.
 JobStatus without_reasons(JobStatus job);
 
@@ -31,8 +31,8 @@ Response json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
 // log.
 Response refused(const Error& error, const Request& request, Services& services);
 
-// Returns the response to an error of JobQueue::begun_by() or add(): like refused(), except that a
-// kBadInput is a fault of the Idempotency-Key.
+// Returns the response to an error of JobQueue::begun_by() or add(): like refused(), except that
+// kBadInput means a faulty Idempotency-Key.
 Response refused_job(const Error& error, const Request& request, Services& services);
 
 // Returns a 422 response that lists the faults of the body.
@@ -54,6 +54,16 @@ tl::expected<PageOf<Id>, std::vector<ParameterFault>> read_page(const Query& que
 // response to send.
 template <class Id>
 tl::expected<PageOf<Id>, Response> read_page(const Request& request);
+
+// Adds the link to the next page of the list that the request asks for (RFC 8288), if `cursor`, the
+// last ID of this page, is set.
+void link_next(const std::optional<std::string>& cursor, const Request& request,
+               Response& response);
+
+// Returns one page of a list as JSON: the items under `name`, and under "next" the cursor of the
+// next page, or null. A Link field names the next page as well.
+Response list_answer(std::string_view name, nlohmann::ordered_json items,
+                     const std::optional<std::string>& cursor, const Request& request);
 
 // Returns the 401 response to a request that needs a token.
 Response token_needed(const Request& request);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "server/api/forward.h"
@@ -11,6 +13,19 @@
 namespace vitrine::server {
 namespace {
 
+// Returns the ID of the event that tells of this status. All events of an ended job have the same.
+std::string event_id(const JobStatus& job) {
+  const std::string_view state = kJobStates[static_cast<std::size_t>(job.record.state)];
+  return has_ended(job.record.state) ? std::string(state)
+                                     : fmt::format("{}-{:.3f}", state, job.record.progress);
+}
+
+// Whether the client has received the last event of the job, and connects again only because the
+// stream ended.
+bool knows_the_end(const JobStatus& job, const Request& request) {
+  return has_ended(job.record.state) && request.header["Last-Event-ID"] == event_id(job);
+}
+
 // Sends an event for each change of a job, until the job ends.
 class JobEvents final : public EventSource {
  public:
@@ -22,7 +37,8 @@ class JobEvents final : public EventSource {
     if (told_ == newest_) return std::nullopt;
     told_ = newest_;
     return Event{"job",
-                 job_json(newest_).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+                 job_json(newest_).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+                 event_id(newest_)};
   }
   bool ended() const override { return told_ && has_ended(told_->record.state); }
 
@@ -33,12 +49,6 @@ class JobEvents final : public EventSource {
   const bool with_reasons_;
 };
 
-bool is_public(const JobRecord& job, Services& services) {
-  if (!job.scan) return false;
-  const auto scan = services.scans.find(*job.scan);
-  return scan && *scan && is_public((*scan)->entry, services);
-}
-
 // Calls `answer(job)` with the job that the request names. Returns 401 or 404 if there is no job
 // that the caller may see, and 500 or 503 if an error occurs.
 template <class Answer>
@@ -46,7 +56,8 @@ Response with_job(const Request& request, Services& services, Answer&& answer) {
   const auto job = services.scans.jobs().find(id_in<JobId>(request));
   if (!job) return internal_error(job.error(), request, services);
   if (*job && request.caller) return for_caller(answer(**job));
-  if (*job && is_public((*job)->record, services)) return answer(without_reasons(**job));
+  if (*job && is_visible((*job)->record, services.scans, services.models))
+    return answer(without_reasons(**job));
   if (!request.caller) return token_needed(request);  // 401, which does not reveal which jobs exist
   return problem(404, "there is no such job", request.id);
 }
@@ -73,10 +84,9 @@ static Response list_jobs(const Request& request, Services& services) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const JobStatus& job : *jobs)
     list.push_back(job_json(job));
-  const bool may_go_on = jobs->size() == page->limit;
-  nlohmann::ordered_json json = {{"jobs", std::move(list)}, {"next", nullptr}};
-  if (may_go_on) json["next"] = jobs->back().record.id.to_string();
-  return json_answer(json);
+  std::optional<std::string> next;
+  if (jobs->size() == page->limit) next = jobs->back().record.id.to_string();
+  return list_answer("jobs", std::move(list), next, request);
 }
 
 static Response show_job(const Request& request, Services& services) {
@@ -101,11 +111,16 @@ static Response resume_job(const Request& request, Services& services) {
 }
 
 Response show_job_events(const Request& request, Services& services) {
-  // Watches the job before reading its state, so that its end cannot be missed in between.
+  // Watches the job before reading its state. Otherwise the job could end unnoticed between the two
+  // steps.
   const auto run = services.scans.jobs().watch(id_in<JobId>(request));
   if (!run) return internal_error(run.error(), request, services);
   return with_job(request, services, [&](const JobStatus& job) {
     Response response;
+    if (knows_the_end(job, request)) {
+      response.status = 204;  // ends the reconnection of an EventSource (HTML, section 9.2)
+      return response;
+    }
     response.type = "text/event-stream";
     response.events = std::make_shared<JobEvents>(job, *run, request.caller.has_value());
     return response;
@@ -115,13 +130,14 @@ Response show_job_events(const Request& request, Services& services) {
 static constexpr std::string_view kJobsComponents = R"json({
 "schemas": {
   "JobStarted": {"type": "object", "required": ["job"], "properties": {"job": {"$ref": "#/components/schemas/Id"}}},
-  "Job": {"type": "object", "required": ["id", "kind", "state", "stage", "progress", "eta", "error", "scan", "model", "created", "ended"],
+  "Job": {"type": "object", "required": ["id", "kind", "state", "stage", "progress", "eta", "error", "scan", "model", "repairs", "created", "ended"],
     "properties": {
       "id": {"$ref": "#/components/schemas/Id"}, "kind": {"type": "string"},
       "state": {"enum": ["queued", "running", "paused", "done", "failed", "cancelled"]}, "stage": {"type": ["string", "null"]},
       "progress": {"type": "number", "minimum": 0, "maximum": 1}, "eta": {"type": ["number", "null"], "description": "Remaining time in seconds"},
       "error": {"type": ["string", "null"]}, "note": {"type": ["string", "null"]}, "scanner": {"type": "string"},
       "scan": {"$ref": "#/components/schemas/IdOrNull"}, "model": {"$ref": "#/components/schemas/IdOrNull"},
+      "repairs": {"type": "array", "items": {"type": "string"}, "description": "What the build of the model changed or left out"},
       "created": {"$ref": "#/components/schemas/Time"}, "ended": {"anyOf": [{"$ref": "#/components/schemas/Time"}, {"type": "null"}]}}},
   "JobPage": {"type": "object", "required": ["jobs", "next"], "properties": {
     "jobs": {"type": "array", "items": {"$ref": "#/components/schemas/Job"}}, "next": {"$ref": "#/components/schemas/Next"}}}
@@ -158,7 +174,7 @@ static constexpr ApiRoute kJobRoutes[] = {
      .executor = Executor::kWorker,
      .role = Role::kOperator,
      .doc = {.id = "resumeJob",
-             .summary = "Resumes a paused, interrupted or failed job.",
+             .summary = "Resumes a paused or interrupted job.",
              .request = "Nothing",
              .status = 202,
              .response = "Job"}},
@@ -168,7 +184,8 @@ static constexpr ApiRoute kJobRoutes[] = {
      .executor = Executor::kWorker,
      .doc = {.id = "followJob",
              .summary = "Sends a server-sent event `job` with the job's state at every change, "
-                        "until the job ends.",
+                        "until the job ends. A client that connects again after the last event "
+                        "(Last-Event-ID) receives 204.",
              .response = "text/event-stream"}},
 };
 

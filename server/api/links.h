@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes absolute links to a model's pages and pictures. Adds links and metadata to the head of a
-// page, so that other software finds the title, picture, oEmbed and IIIF manifest of a model.
+// Makes absolute links to a model's pages and pictures. Describes a model in its page: in the head
+// for search engines, link previews and other software, in the body for browsers without
+// JavaScript.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,8 +26,19 @@ inline constexpr unsigned kThumbnailWidth = 240, kCanvasWidth = 960;
 // links are then relative.
 std::string origin_of(const Request& request, Services& services);
 
-// Returns `html` with the metadata and links of `model` inserted before the end of its head.
+// Returns the URL of a licence or rights statement, or nullopt if `licence` is neither an SPDX
+// identifier of a Creative Commons licence nor a URL at creativecommons.org or
+// rightsstatements.org. The URL starts with http, not https, as IIIF and these sites require.
+std::optional<std::string> rights_url(std::string_view licence);
+
+// Returns `html` with the title of `model`, and with its metadata and links inserted before the end
+// of the head: description, Open Graph, oEmbed, IIIF, and JSON-LD (3DModel of schema.org).
 std::string with_links(std::string_view html, const ModelRecord& model, std::string_view origin);
+
+// Returns the page `html` (web/src/gallery/model.html) with heading, creator, description, facts
+// and, for browsers without JavaScript, the poster of `model`. The page's script later replaces the
+// texts by those in the visitor's language.
+std::string with_texts(std::string html, const ModelRecord& model);
 
 // Percent-encodes `text` as a value in a query: all but unreserved characters become %XX (RFC
 // 3986).

@@ -2,6 +2,7 @@
 #include "server/api/model_json.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "server/messages/response.h"
@@ -17,7 +18,7 @@ std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json model(const ModelRecord& record) {
+Json model(const ModelRecord& record, bool counts_visits) {
   const std::string self = "/api/v1/models/" + record.id.to_string();
   Json json = {{"id", record.id.to_string()},
                {"state", record.state == ModelState::kPublished ? "published" : "draft"},
@@ -34,6 +35,10 @@ Json model(const ModelRecord& record) {
                {"faces", record.faces},
                {"bytes", record.file_bytes},
                {"head_bytes", record.head_bytes},
+               {"textures",
+                {{"count", record.textures.count},
+                 {"largest_side", record.textures.largest_side},
+                 {"bytes", record.textures.bytes}}},
                {"links",
                 {{"self", self},
                  {"page", "/models/" + record.id.to_string()},
@@ -42,6 +47,8 @@ Json model(const ModelRecord& record) {
                  {"file", self + "/file.pmesh"},
                  {"stream", self + "/stream"},
                  {"poster", self + "/poster.png"}}}};
+  if (counts_visits && record.state == ModelState::kPublished)
+    json["links"]["visits"] = self + "/visits";
   for (const auto& [name, text] : record.more)
     json[name] = text;
   return json;
@@ -96,6 +103,49 @@ Json chunks(const Manifest& manifest) {
   return all;
 }
 
+std::string_view alpha_mode(AlphaMode mode) {
+  constexpr std::array<std::string_view, 3> kNames = {"opaque", "mask", "blend"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
+
+Json place(std::uint64_t offset, std::uint64_t length, const Sha256& sha256) {
+  return {{"offset", offset}, {"length", length}, {"sha256", to_hex(sha256)}};
+}
+
+// Returns null if the model has no originals or hides them.
+Json originals(const Manifest& manifest) {
+  Json source, pictures = Json::array();
+  for (const OptionalBlock& block : manifest.optional_blocks) {
+    Json json = place(block.offset, block.length, block.sha256);
+    if (block.kind == static_cast<std::uint64_t>(OptionalKind::kSource))
+      source = std::move(json);
+    else if (block.kind == static_cast<std::uint64_t>(OptionalKind::kSourcePicture))
+      pictures.push_back(std::move(json));
+  }
+  if (source.is_null()) return source;
+  return {{"description", std::move(source)}, {"pictures", std::move(pictures)}};
+}
+
+// Returns null if the model has no texture.
+Json texture(const TextureInfo& info) {
+  if (info.empty()) return nullptr;
+  Json pictures = Json::array();
+  for (std::uint32_t i = 0; i < info.pictures.size(); ++i) {
+    const PictureInfo& picture = info.pictures[i];
+    Json json = {
+        {"role", name_of(picture.role)}, {"side", picture.side}, {"in_head", i < info.in_head}};
+    json.update(place(picture.offset, picture.length, picture.sha256));
+    pictures.push_back(std::move(json));
+  }
+  return {{"side", info.side},
+          {"alpha_mode", alpha_mode(info.alpha_mode)},
+          {"alpha_cutoff", info.alpha_cutoff},
+          {"double_sided", info.is_double_sided},
+          {"unlit", info.is_unlit},
+          {"atlas", place(info.atlas_offset, info.atlas_length, info.atlas_sha256)},
+          {"pictures", std::move(pictures)}};
+}
+
 // Returns the expected result of a detail request. The member `seconds` is the loading time at the
 // client's bandwidth, or null if the request does not state a bandwidth.
 Json expectation(const DetailRequest& detail, const Manifest& manifest) {
@@ -110,18 +160,18 @@ Json expectation(const DetailRequest& detail, const Manifest& manifest) {
 
 }  // namespace
 
-std::string model_json(const ModelRecord& record) {
-  return dump(model(record));
+std::string model_json(const ModelRecord& record, bool counts_visits) {
+  return dump(model(record, counts_visits));
 }
 
-std::string model_tag(const ModelRecord& record) {
-  return entity_tag(std::to_string(record.version) + model_json(record));
+std::string model_tag(const ModelRecord& record, bool counts_visits) {
+  return entity_tag(std::to_string(record.version) + model_json(record, counts_visits));
 }
 
-std::string model_page_json(const ModelPage& page, bool whole) {
+std::string model_page_json(const ModelPage& page, bool whole, bool counts_visits) {
   Json json = {{"models", Json::array()}, {"next", nullptr}};
   for (const ModelRecord& record : page.models)
-    json["models"].push_back(model(whole ? record : public_view(record)));
+    json["models"].push_back(model(whole ? record : public_view(record), counts_visits));
   if (page.next) json["next"] = page.next->to_string();
   return dump(json);
 }
@@ -142,10 +192,9 @@ std::string manifest_json(const PublishedModel& published,
                {"levels", levels(manifest)},
                {"regions", manifest.tree.leaves()},
                {"adjacency", manifest.adjacency},
-               {"base",
-                {{"offset", manifest.base_offset},
-                 {"length", manifest.base_length},
-                 {"sha256", to_hex(manifest.base_sha256)}}},
+               {"base", place(manifest.base_offset, manifest.base_length, manifest.base_sha256)},
+               {"texture", texture(manifest.texture)},
+               {"originals", originals(manifest)},
                {"chunks", chunks(manifest)}};
   if (detail) json["expect"] = expectation(*detail, manifest);
   return dump(json);

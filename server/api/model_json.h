@@ -11,13 +11,15 @@
 
 namespace vitrine::server {
 
-std::string model_json(const ModelRecord& record);
+// Formats a model. If `counts_visits` is true and the model is published, its links name the
+// address to which viewers report visits.
+std::string model_json(const ModelRecord& record, bool counts_visits);
 // Returns the entity tag of the text of model_json(). The tag changes with every change of the
 // model or of its file.
-std::string model_tag(const ModelRecord& record);
+std::string model_tag(const ModelRecord& record, bool counts_visits);
 // Formats one page of the list of models. If `whole` is false, shows each model as clients without
 // a token see it.
-std::string model_page_json(const ModelPage& page, bool whole);
+std::string model_page_json(const ModelPage& page, bool whole, bool counts_visits);
 
 // Formats the manifest. If there is a detail request, adds its expected result as `expect`.
 std::string manifest_json(const PublishedModel& model, const std::optional<DetailRequest>& detail);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handlers that create models from uploads, change models and delete them.
+// Defines the handlers that create models from uploads, change models and delete them.
 #include <nlohmann/json.hpp>
 
 #include "codec/mesh/unit.h"
@@ -17,15 +17,18 @@ namespace {
 
 constexpr double kMostAccuracy = 1e6;  // largest accuracy, in the model's unit
 
-// Checks whether an order can be carried out now and returns its faults: the webhook must be
-// allowed, the upload complete and accessible to the caller, and the model to replace known.
-FieldFaults check(const ModelOrder& order, const Request& request, Services& services) {
+// Checks whether an order can be carried out now, and returns its faults. The webhook must be
+// allowed. The upload must be complete and accessible to the caller. The model to replace must
+// exist.
+FieldFaults check(const ModelOrder& order, const Uploading<Upload>& upload, const Request& request,
+                  Services& services) {
   FieldFaults faults = check_webhook(order.webhook, services);
-  const auto upload = services.uploads.find(order.upload);
   const bool is_own =
       upload && (upload->token == request.caller->token || request.caller->role >= Role::kAdmin);
   if (!is_own) {
     faults.push_back({"upload", "the id of an upload of this token; it has none with that id"});
+  } else if (!upload->is_length_known) {
+    faults.push_back({"upload", "a complete upload; state its Upload-Length"});
   } else if (!upload->is_whole()) {
     faults.push_back({"upload", fmt::format("a complete upload; {} of {} bytes have arrived",
                                             upload->offset, upload->length)});
@@ -36,6 +39,16 @@ FieldFaults check(const ModelOrder& order, const Request& request, Services& ser
   return faults;
 }
 
+// Whether an upload may exist, although it cannot be read now.
+bool is_unreadable(const Uploading<Upload>& upload) {
+  return !upload && upload.error().cause != UploadFault::kGone;
+}
+
+Response unreadable(const UploadFault& fault, const Request& request, Services& services) {
+  const bool is_full = fault.cause == UploadFault::kNoRoom;
+  return refused({is_full ? ErrorCode::kLimit : ErrorCode::kIo, fault.message}, request, services);
+}
+
 Response accepted(const JobRecord& job) {
   Response response = json_answer({{"job", job.id.to_string()}}, 202);
   response.fields = {{"Location", "/api/v1/jobs/" + job.id.to_string()}};
@@ -43,9 +56,10 @@ Response accepted(const JobRecord& job) {
 }
 
 // Whether an If-Match list matches the model. Compares with the entity tags of both the full and
-// the public view, since a client may read the model without a token and then change it with one.
-bool matches(std::string_view list, const ModelRecord& model) {
-  return matches_any(list, model_tag(model)) || matches_any(list, model_tag(public_view(model)));
+// the public view: a client may read the model without a token and then change the model with one.
+bool matches(std::string_view list, const ModelRecord& model, bool counts_visits) {
+  return matches_any(list, model_tag(model, counts_visits)) ||
+         matches_any(list, model_tag(public_view(model), counts_visits));
 }
 
 Response model_has_changed(const Request& request) {
@@ -54,16 +68,23 @@ Response model_has_changed(const Request& request) {
 
 // Returns 412 if the request's If-Match does not match the current state of the model, else
 // nullopt.
-std::optional<Response> refuse_state(const ModelRecord& model, const Request& request) {
+std::optional<Response> refuse_state(const ModelRecord& model, const Request& request,
+                                     const Services& services) {
   const auto wanted = request.header.find(beast::http::field::if_match);
   if (wanted == request.header.end()) return std::nullopt;
   const auto list = wanted->value();
-  if (matches({list.data(), list.size()}, model)) return std::nullopt;
+  if (matches({list.data(), list.size()}, model, services.settings.get().counts_visits))
+    return std::nullopt;
   return model_has_changed(request);
 }
 
 // Returns the response to a failed change or removal. Returns 412 if the request has If-Match and
 // another request has changed the model since the check.
+// Returns the hash of the file that visitors see, or would see if the model were published.
+const Sha256& public_file(const ModelRecord& model) {
+  return model.public_part ? model.public_part->file : model.file;
+}
+
 Response refused_change(const Error& error, const ModelRecord& before, const Request& request,
                         Services& services) {
   const auto now = services.catalogue.find(before.id);
@@ -81,13 +102,14 @@ Response with_record(const Request& request, Services& services, Answer&& answer
   const auto model = services.catalogue.find(id_in<ModelId>(request));
   if (!model) return internal_error(model.error(), request, services);
   if (!*model) return problem(404, "there is no such model", request.id);
-  if (auto refused = refuse_state(**model, request)) return *refused;
+  if (auto refused = refuse_state(**model, request, services)) return *refused;
   return answer(**model);
 }
 
 void read_unit(Fields& fields, const nlohmann::json& body, std::string& unit) {
   const auto found = body.find("unit");
   if (found == body.end()) return;
+  if (found->is_null()) return unit.clear();
   const auto* given = found->get_ptr<const std::string*>();
   if (given == nullptr || !(given->empty() || metres_per(*given)))
     return fields.fault("unit", "mm, cm, m, in, or empty if it is unknown");
@@ -151,12 +173,15 @@ static Response make_model(const Request& request, Services& services) {
   auto& jobs = services.scans.jobs();
   const auto begun = jobs.begun_by(*once);
   if (!begun) return refused_job(begun.error(), request, services);
-  // Tested before check(), since the upload of a job that has begun may have been removed already.
+  // Looks for the key before check(), because the upload of a job that has begun may no longer
+  // exist.
   if (*begun) return accepted(**begun);
   const auto held = services.uploads.hold();
-  if (const auto faults = check(*order, request, services); !faults.empty())
+  const auto upload = services.uploads.find(order->upload);
+  if (is_unreadable(upload)) return unreadable(upload.error(), request, services);
+  if (const auto faults = check(*order, upload, request, services); !faults.empty())
     return invalid(faults, request);
-  const auto job = jobs.add(PublishJobs::job_for(*order), std::nullopt, *once);
+  const auto job = jobs.add(PublishJobs::job_for(*order, upload->token), std::nullopt, *once);
   return job ? accepted(*job) : refused_job(job.error(), request, services);
 }
 
@@ -168,10 +193,12 @@ static Response change_model(const Request& request, Services& services) {
     if (!model) return refused_change(model.error(), before, request, services);
     services.models.refresh();
     services.collector.hurry();
+    if (public_file(before) != public_file(*model)) make_posters(model->id, services);
     Response response;
     response.type = "application/json";
-    response.body = model_json(*model);
-    response.etag = model_tag(*model);
+    const bool counts_visits = services.settings.get().counts_visits;
+    response.body = model_json(*model, counts_visits);
+    response.etag = model_tag(*model, counts_visits);
     return response;
   });
 }

@@ -7,6 +7,7 @@
 #include "server/api/model_json.h"
 #include "server/api/path_parameters.h"
 #include "server/api/published.h"
+#include "server/messages/content_coding.h"
 #include "server/messages/query.h"
 
 namespace vitrine::server {
@@ -57,10 +58,17 @@ Response in_state(ModelState state, const Request& request, Services& services) 
     if (!done) return refused(done.error(), request, services);
     services.models.refresh();
     (*model)->state = state;
+    if (state == ModelState::kPublished) make_posters((*model)->id, services);
   }
   Response response;
   response.type = "application/json";
-  response.body = model_json(**model);
+  response.body = model_json(**model, services.settings.get().counts_visits);
+  return response;
+}
+
+Response manifest_response(const Request& request, std::shared_ptr<const Document> manifest) {
+  Response response = kept_json(request.header, std::move(manifest));
+  add_vary(response, "Save-Data");
   return response;
 }
 
@@ -76,16 +84,19 @@ static Response list_models(const Request& request, Services& services) {
   if (wanted.includes_drafts && !request.caller) return token_needed(request);
   const auto page = services.catalogue.search(wanted);
   if (!page) return internal_error(page.error(), request, services);
-  Response response =
-      revalidated("application/json", model_page_json(*page, request.caller.has_value()));
+  Response response = revalidated(
+      "application/json",
+      model_page_json(*page, request.caller.has_value(), services.settings.get().counts_visits));
+  if (page->next) link_next(page->next->to_string(), request, response);
   if (request.caller) return for_caller(std::move(response));
   return response;
 }
 
 static Response show_model(const Request& request, Services& services) {
-  return with_model(request, services, [](const auto& model) {
-    Response response = revalidated("application/json", model_json(model->record()));
-    response.etag = model_tag(model->record());
+  const bool counts_visits = services.settings.get().counts_visits;
+  return with_model(request, services, [=](const auto& model) {
+    Response response = revalidated("application/json", model_json(model->record(), counts_visits));
+    response.etag = model_tag(model->record(), counts_visits);
     return response;
   });
 }
@@ -97,12 +108,15 @@ static Response show_manifest(const Request& request, Services& services) {
     const auto detail = read_detail_request(*query, request.header, model->manifest());
     if (!detail) return problem(400, "a parameter is out of range", request.id, {detail.error()});
     const bool asked = detail->stated || saves_data(request.header);
-    Response response = revalidated(
-        "application/json", manifest_json(*model, asked ? std::optional(*detail) : std::nullopt));
-    response.fields = {{"Vary", "Save-Data"}};
-    if (!asked)
-      services.models.keep_manifest(model, {std::get<std::string>(response.body), response.etag});
-    return response;
+    std::string json = manifest_json(*model, asked ? std::optional(*detail) : std::nullopt);
+    if (asked || request.caller) {
+      Response response = revalidated("application/json", std::move(json));
+      add_vary(response, "Save-Data");
+      return response;
+    }
+    const auto document = make_document(std::move(json));
+    services.models.keep_manifest(model, document);
+    return manifest_response(request, document);
   });
 }
 
@@ -110,17 +124,10 @@ static std::optional<Response> show_held_manifest(const Request& request, Servic
   const bool is_plain = request.query.empty() && !saves_data(request.header) &&
                         request.header.count(beast::http::field::authorization) == 0;
   if (!is_plain) return std::nullopt;
-  const auto model = services.models.cached(id_in<ModelId>(request));
+  const auto model = cached_visible(id_in<ModelId>(request), false, services.models);
   const auto kept = model ? model->kept_manifest() : nullptr;
   if (!kept) return std::nullopt;
-  const auto* text = reinterpret_cast<const std::uint8_t*>(kept->text.data());
-  Response response;
-  response.type = "application/json";
-  response.caching = Caching::kRevalidate;
-  response.etag = kept->etag;
-  response.fields = {{"Vary", "Save-Data"}};
-  response.body = SharedBytes{kept, {text, kept->text.size()}};
-  return response;
+  return manifest_response(request, kept);
 }
 
 static Response show_head(const Request& request, Services& services) {
@@ -166,20 +173,26 @@ static constexpr std::string_view kModelsComponents = R"json({
 },
 "schemas": {
   "Model": {"type": "object",
-    "required": ["id", "state", "title", "creator", "rights", "licence", "unit", "created", "vertices", "faces", "bytes", "head_bytes", "links"],
+    "required": ["id", "state", "title", "creator", "rights", "licence", "unit", "created", "vertices", "faces", "bytes", "head_bytes", "textures", "links"],
     "properties": {
       "id": {"$ref": "#/components/schemas/Id"}, "state": {"enum": ["published", "draft"]},
       "title": {"type": "string"}, "creator": {"type": "string"}, "rights": {"type": "string", "description": "A rights statement in plain text"},
       "licence": {"type": "string", "description": "An SPDX identifier or a URL"},
       "unit": {"type": "string", "description": "Unit of the coordinates; empty if unknown"},
       "accuracy": {"type": ["number", "null"], "description": "Accuracy of the scan in the model's unit"},
-      "public_max_level": {"type": ["integer", "null"], "description": "The finest level that visitors can load; null for all levels"}, "created": {"$ref": "#/components/schemas/Time"},
+      "public_max_level": {"type": ["integer", "null"], "description": "The finest level that visitors can load; null for all levels. A limited model also lacks the pictures of a texture that are not in the head"}, "created": {"$ref": "#/components/schemas/Time"},
       "vertices": {"type": "integer"}, "faces": {"type": "integer"}, "bytes": {"type": "integer"},
-      "head_bytes": {"type": "integer"}, "links": {"type": "object", "additionalProperties": {"type": "string"}}}},
+      "head_bytes": {"type": "integer"},
+      "textures": {"type": "object", "description": "The pictures of the texture; all 0 without a texture", "required": ["count", "largest_side", "bytes"], "properties": {
+        "count": {"type": "integer", "description": "Number of kinds of pictures, such as base colours and normals"},
+        "largest_side": {"type": "integer", "description": "Largest width and height in pixels"},
+        "bytes": {"type": "integer", "description": "Size of all pictures, in all sizes"}}},
+      "links": {"type": "object", "additionalProperties": {"type": "string"},
+        "properties": {"visits": {"type": "string", "description": "Where viewers report visits; missing if the server does not count them"}}}}},
   "ModelPage": {"type": "object", "required": ["models", "next"], "properties": {
     "models": {"type": "array", "items": {"$ref": "#/components/schemas/Model"}}, "next": {"$ref": "#/components/schemas/Next"}}},
   "Manifest": {"type": "object",
-    "required": ["id", "sha256", "bytes", "head_bytes", "unit", "placement", "coloured", "lattice", "bounding_box", "levels", "regions", "adjacency", "base", "chunks"],
+    "required": ["id", "sha256", "bytes", "head_bytes", "unit", "placement", "coloured", "lattice", "bounding_box", "levels", "regions", "adjacency", "base", "texture", "originals", "chunks"],
     "properties": {
       "id": {"$ref": "#/components/schemas/Id"}, "sha256": {"$ref": "#/components/schemas/Sha256"},
       "bytes": {"type": "integer"}, "head_bytes": {"type": "integer"}, "unit": {"type": "string"},
@@ -196,11 +209,34 @@ static constexpr std::string_view kModelsComponents = R"json({
       "regions": {"type": "integer"}, "adjacency": {"type": "array", "items": {"type": "array", "items": {"type": "integer"}}},
       "base": {"type": "object", "required": ["offset", "length", "sha256"], "properties": {
         "offset": {"type": "integer"}, "length": {"type": "integer"}, "sha256": {"$ref": "#/components/schemas/Sha256"}}},
+      "texture": {"oneOf": [{"$ref": "#/components/schemas/Texture"}, {"type": "null"}]},
+      "originals": {"oneOf": [{"$ref": "#/components/schemas/Originals"}, {"type": "null"}]},
       "chunks": {"type": "array", "items": {"type": "object", "required": ["level", "region", "offset", "length", "max_error", "sha256"], "properties": {
         "level": {"type": "integer"}, "region": {"type": "integer"}, "leaves": {"type": "integer"}, "offset": {"type": "integer"},
         "length": {"type": "integer"}, "splits": {"type": "integer"}, "newborn": {"type": "integer"}, "max_error": {"type": "number"},
         "sha256": {"$ref": "#/components/schemas/Sha256"}}}},
       "expect": {"$ref": "#/components/schemas/Expectation"}}},
+  "Texture": {"type": "object", "description": "The display atlas of a model and its pictures",
+    "required": ["side", "alpha_mode", "alpha_cutoff", "double_sided", "unlit", "atlas", "pictures"], "properties": {
+      "side": {"type": "integer", "description": "Width and height of all pictures, in units of texture coordinates"},
+      "alpha_mode": {"enum": ["opaque", "mask", "blend"]},
+      "alpha_cutoff": {"type": "number", "description": "For mask: smaller opacities are invisible"},
+      "double_sided": {"type": "boolean"}, "unlit": {"type": "boolean"},
+      "atlas": {"type": "object", "description": "The coded texture coordinates of the base mesh", "required": ["offset", "length", "sha256"], "properties": {
+        "offset": {"type": "integer"}, "length": {"type": "integer"}, "sha256": {"$ref": "#/components/schemas/Sha256"}}},
+      "pictures": {"type": "array", "items": {"type": "object", "description": "A square WebP file",
+        "required": ["role", "side", "in_head", "offset", "length", "sha256"], "properties": {
+        "role": {"enum": ["base_colour", "normal", "surface", "emission"],
+          "description": "surface: occlusion (red), roughness (green) and metallic (blue)"},
+        "side": {"type": "integer", "description": "Width and height in pixels"},
+        "in_head": {"type": "boolean", "description": "Whether the head contains the picture"},
+        "offset": {"type": "integer"}, "length": {"type": "integer"}, "sha256": {"$ref": "#/components/schemas/Sha256"}}}}}},
+  "Originals": {"type": "object", "description": "The source's pictures, materials and texture coordinates, to the bit. A model with public_max_level hides them from visitors",
+    "required": ["description", "pictures"], "properties": {
+      "description": {"$ref": "#/components/schemas/Block"},
+      "pictures": {"type": "array", "items": {"$ref": "#/components/schemas/Block"}}}},
+  "Block": {"type": "object", "description": "A part of the file, which /chunks/{sha256} serves", "required": ["offset", "length", "sha256"], "properties": {
+    "offset": {"type": "integer"}, "length": {"type": "integer"}, "sha256": {"$ref": "#/components/schemas/Sha256"}}},
   "Expectation": {"type": "object", "description": "The expected result of the detail request or of Save-Data",
     "required": ["level", "triangles", "bytes", "error", "seconds"], "properties": {
       "level": {"type": "integer", "description": "The finest complete level"}, "triangles": {"type": "integer"},
@@ -217,7 +253,8 @@ static constexpr ApiRoute kModelRoutes[] = {
      .doc = {.id = "listModels",
              .summary = "Lists the published models, newest first.",
              .parameters = "q limit cursor drafts",
-             .response = "ModelPage"}},
+             .response = "ModelPage",
+             .may_be_gzip = true}},
     // These routes need no token, but with a token the handlers also show drafts.
     {.method = Method::kGet,
      .path = "/api/v1/models/{id}",
@@ -225,7 +262,8 @@ static constexpr ApiRoute kModelRoutes[] = {
      .executor = Executor::kWorker,
      .doc = {.id = "getModel",
              .summary = "Returns a model's metadata, sizes and links.",
-             .response = "Model"}},
+             .response = "Model",
+             .may_be_gzip = true}},
     {.method = Method::kGet,
      .path = "/api/v1/models/{id}/manifest",
      .handler = show_manifest,
@@ -235,14 +273,16 @@ static constexpr ApiRoute kModelRoutes[] = {
              .summary = "Lists a model's levels, regions, chunks, sizes and errors. With a "
                         "detail request, also the expected result.",
              .parameters = "triangles error bytes level kbps seconds saveData",
-             .response = "Manifest"}},
+             .response = "Manifest",
+             .may_be_gzip = true}},
     {.method = Method::kGet,
      .path = "/api/v1/models/{id}/head",
      .handler = show_head,
      .executor = Executor::kWorker,
      .doc = {.id = "getHead",
              .summary =
-                 "Returns the header and the base mesh, which suffice for the first picture.",
+                 "Returns the header and the base mesh, and the first picture of a texture. They "
+                 "suffice for the first view.",
              .response = "application/octet-stream"}},
     {.method = Method::kGet,
      .path = "/api/v1/models/{id}/file.pmesh",

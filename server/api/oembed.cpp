@@ -86,7 +86,7 @@ static Response show_oembed(const Request& request, Services& services) {
                        description(model->record(), origin, room)
                            .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   };
-  return with_found(services.models.find(*id), request, services, answer);
+  return with_found(find_visible(*id, false, services.models).model, request, services, answer);
 }
 
 static constexpr std::string_view kOembedComponents = R"json({
@@ -115,7 +115,8 @@ static constexpr ApiRoute kOembedRoutes[] = {
              .summary =
                  "Returns the code by which another site embeds a model's page (oEmbed 1.0).",
              .parameters = "url maxwidth maxheight format",
-             .response = "Oembed"}},
+             .response = "Oembed",
+             .may_be_gzip = true}},
 };
 
 const ApiNoun kOembed = {.routes = kOembedRoutes, .components = kOembedComponents};

@@ -8,6 +8,7 @@
 #include "server/api/routes.h"
 #include "server/api/services.h"
 #include "server/auth/role.h"
+#include "server/messages/content_coding.h"
 
 namespace vitrine::server {
 namespace {
@@ -21,8 +22,9 @@ constexpr std::string_view kAbout =
     "it. Published models are public. Other requests need a token (`Authorization: Bearer "
     "TOKEN`) with the role in `x-role`. Every route with GET supports HEAD. Responses to GET have "
     "strong ETags and support If-None-Match, Range (one range) and If-Range, except those for "
-    "scanners, scans and jobs. Errors are RFC 9457 problems. Request bodies are JSON of at most "
-    "64 KiB.";
+    "scanners, scans and jobs. Requests without a token and with `Accept-Encoding: gzip` get "
+    "public JSON from 1 KiB to 4 MiB, OBJ and VRML with gzip; ETag and Range then refer to the "
+    "compressed body. Errors are RFC 9457 problems. Request bodies are JSON of at most 64 KiB.";
 
 std::string_view name_of(Method method) {
   switch (method) {
@@ -44,11 +46,28 @@ Json ref(std::string_view kind, std::string_view name) {
   return {{"$ref", fmt::format("#/components/{}/{}", kind, name)}};
 }
 
-// Returns the OpenAPI `content` object for `answer`, the name of a schema or a media type.
+// Returns the OpenAPI `content` object for `answer`: the name of a schema, or media types separated
+// by spaces. Generators of clients take `format: binary` for bytes.
 Json content(std::string_view answer) {
   if (answer.find('/') == std::string_view::npos)
     return {{"application/json", {{"schema", ref("schemas", answer)}}}};
-  return {{std::string(answer), Json::object()}};
+  Json all = Json::object();
+  for (std::string_view left = answer; !left.empty();) {
+    const std::string_view type = left.substr(0, left.find(' '));
+    left.remove_prefix(std::min(left.size(), type.size() + 1));
+    Json schema = {{"type", "string"}};
+    if (!type.starts_with("text/")) schema["format"] = "binary";
+    all[std::string(type)] = {{"schema", std::move(schema)}};
+  }
+  return all;
+}
+
+// Returns the `content` object of a request's body. A change may be sent as a JSON merge patch.
+Json request_content(const ApiRoute& route) {
+  Json all = content(route.doc.request);
+  if (route.method == Method::kPatch && all.contains("application/json"))
+    all["application/merge-patch+json"] = all["application/json"];
+  return all;
 }
 
 // Returns the parameters of a route: first those of the path, then query and header parameters.
@@ -71,6 +90,10 @@ Json responses(const RouteDoc& doc) {
                                : doc.status == 101 ? "Switching protocols"
                                                    : "Success"}};
   if (!doc.response.empty()) done["content"] = content(doc.response);
+  if (doc.may_be_gzip) {
+    done["headers"] = {{"Content-Encoding", ref("headers", "ContentEncoding")},
+                       {"Vary", ref("headers", "Vary")}};
+  }
   return {{std::to_string(doc.status), done}, {"default", ref("responses", "Problem")}};
 }
 
@@ -91,7 +114,7 @@ Json operation(const ApiRoute& route) {
   if (const Json all = parameters(route); !all.empty()) json["parameters"] = all;
   if (!doc.request.empty()) {
     json["requestBody"] = {{"required", doc.request != "Nothing"},
-                           {"content", content(doc.request)}};
+                           {"content", request_content(route)}};
   }
   json["responses"] = responses(doc);
   json["security"] = security(route.role);
@@ -110,7 +133,7 @@ Json components() {
   return all;
 }
 
-std::string make_document() {
+std::string openapi_json() {
   Json json = {{"openapi", "3.1.0"},
                {"info",
                 {{"title", "Vitrine"},
@@ -129,9 +152,9 @@ std::string make_document() {
 
 }  // namespace
 
-Response show_openapi(const Request&, Services&) {
-  static const Response document = revalidated("application/json", make_document());
-  return document;
+Response show_openapi(const Request& request, Services&) {
+  static const auto document = make_document(openapi_json());
+  return kept_json(request.header, document);
 }
 
 static constexpr std::string_view kOpenapiComponents = R"json({
@@ -147,7 +170,8 @@ static constexpr ApiRoute kOpenapiRoutes[] = {
      .executor = Executor::kInline,
      .doc = {.id = "getOpenapi",
              .summary = "Returns this document.",
-             .response = "OpenapiDocument"}},
+             .response = "OpenapiDocument",
+             .may_be_gzip = true}},
 };
 
 const ApiNoun kOpenapi = {.routes = kOpenapiRoutes, .components = kOpenapiComponents};

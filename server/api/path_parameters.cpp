@@ -23,7 +23,8 @@ bool is_sha256(std::string_view text) {
 }
 
 bool is_format(std::string_view text) {
-  return !text.empty() && text.size() <= 8 && std::ranges::all_of(text, is_lower);
+  const auto fits = [](char c) { return is_lower(c) || c == '.'; };
+  return !text.empty() && text.size() <= 8 && std::ranges::all_of(text, fits);
 }
 
 bool is_name(std::string_view text) {

@@ -27,7 +27,7 @@ std::uint32_t number_in(const Request& request);  // returns {number}: 1 to 999,
 inline std::string_view name_in(const Request& request) {
   return request.parameters["name"];
 }
-// Returns {format}: 1 to 8 lower-case letters.
+// Returns {format}: 1 to 8 characters of a-z and '.'.
 inline std::string_view format_in(const Request& request) {
   return request.parameters["format"];
 }

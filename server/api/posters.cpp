@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "codec/mesh/vertex_normals.h"
 #include "codec/picture/png_file.h"
+#include "codec/render/material_pictures.h"
 #include "codec/render/render.h"
 #include "server/api/decoded_model.h"
 #include "server/api/handlers.h"
@@ -27,16 +29,38 @@ std::optional<unsigned> read_width(const Query& query) {
 
 // Renders the model in the viewer's first view, with one triangle per two pixels. The model covers
 // about half of the picture and hides half of its own triangles, so further triangles would not be
-// visible.
+// visible. A texture has up to four pixels per pixel of the poster, as its charts leave gaps.
 Expected<std::vector<std::uint8_t>> make_poster(const PublishedModel& model, unsigned width) {
-  const auto mesh = decoded_model(model, WantTriangles{std::uint64_t{width} * width / 2});
-  if (!mesh) return tl::unexpected(mesh.error());
-  Framing frame = frame_around(*mesh, width);
+  const auto decoded =
+      decoded_model(model, WantTriangles{std::uint64_t{width} * width / 2}, 2 * width);
+  if (!decoded) return tl::unexpected(decoded.error());
+  const TriangleMesh& mesh = decoded->mesh;
+  Framing frame = frame_around(mesh, width);
   frame.width = frame.height = width;
-  return write_png(render(*mesh, frame));
+  if (decoded->texturing.empty()) return write_png(render(mesh, frame));
+  auto pictures = decode_pictures(decoded->texturing, kShownMaps, Limits{}.pixels);
+  if (!pictures) return tl::unexpected(pictures.error());
+  const Textures textures(decoded->texturing, std::move(*pictures));
+  return write_png(render({mesh, vertex_normals(mesh), &textures}, frame));
+}
+
+Expected<ExportCache::File> find_or_make_poster(const PublishedModel& model, unsigned width,
+                                                ExportCache& cache) {
+  const auto key = fmt::format("{} poster {}", to_hex(model.record().file), width);
+  return cache.find_or_make(key, [&] { return make_poster(model, width); });
 }
 
 }  // namespace
+
+void make_posters(const ModelId& id, Services& services) {
+  if (!services.exports.keeps_files()) return;
+  for (const bool has_token : {false, true}) {
+    const VisibleModel found = find_visible(id, has_token, services.models);
+    if (!found.model || !*found.model) continue;
+    for (const unsigned width : kPosterWidths)
+      static_cast<void>(find_or_make_poster(**found.model, width, services.exports));
+  }
+}
 
 static Response show_poster(const Request& request, Services& services) {
   const auto query = Query::parse(request.query);
@@ -47,9 +71,7 @@ static Response show_poster(const Request& request, Services& services) {
     return problem(400, "a parameter is out of range", request.id, {{"width", choice}});
   }
   return with_model(request, services, [&](const auto& model) {
-    const auto key = fmt::format("{} poster {}", to_hex(model->record().file), *width);
-    const auto file =
-        services.exports.find_or_make(key, [&] { return make_poster(*model, *width); });
+    const auto file = find_or_make_poster(*model, *width, services.exports);
     if (!file) return internal_error(file.error(), request, services);
     Response response;
     response.type = "image/png";

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Helpers that the handlers of models share: finding the model that a caller may see, and common
-// responses.
+// Helpers that the handlers of models share: responses about the model that a caller may see, and
+// common responses.
 #pragma once
 
 #include "server/api/path_parameters.h"
 #include "server/api/services.h"
+#include "server/api/visibility.h"
 #include "server/messages/problem.h"
+#include "server/store/change.h"
 
 namespace vitrine::server {
 
@@ -27,22 +29,11 @@ inline Response internal_error(const Error& error, const Request& request, Servi
   return error.code == ErrorCode::kIo ? away(request.id) : problem(500, "", request.id);
 }
 
-// Whether a scan is visible without a token. While the scan has no model yet, it is visible if it
-// was requested as public. Afterwards, it is visible as long as its model is published.
-inline bool is_public(const ScanEntry& scan, Services& services) {
-  if (!scan.model) return scan.is_public;
-  const auto model = services.models.find(*scan.model);
-  return model && *model != nullptr;
-}
-
 // Returns the faults of a webhook URL. An empty URL has none; it means that no webhook is called.
 inline FieldFaults check_webhook(const std::string& url, Services& services) {
   if (url.empty() || services.webhooks.allows(url)) return {};
   return {{"webhook", "a URL at a host of the setting webhook-hosts"}};
 }
-
-// The model that was searched for, or null if there is no such model.
-using FoundModel = Expected<std::shared_ptr<const PublishedModel>>;
 
 // Calls `answer(model)` if the model was found. Otherwise returns 404, or 500 or 503 after an
 // error.
@@ -54,40 +45,25 @@ Response with_found(const FoundModel& model, const Request& request, Services& s
   return answer(*model);
 }
 
-// Calls `answer` with the published model that the request's {id} names. Returns 404 if there is
-// none, and 500 or 503 if an error occurs.
-template <class Answer>
-Response with_published(const Request& request, Services& services, Answer&& answer) {
-  return with_found(services.models.find(id_in<ModelId>(request)), request, services, answer);
+// Returns the public part of the published models, newest first; at most kMostListed.
+inline constexpr std::size_t kMostListed = 10'000;
+inline Expected<std::vector<ModelRecord>> all_public(Services& services) {
+  std::vector<ModelRecord> all;
+  ModelQuery query{.limit = kMaxPage};
+  do {
+    auto page = services.catalogue.search(query);
+    if (!page) return tl::unexpected(page.error());
+    for (ModelRecord& model : page->models)
+      all.push_back(public_view(std::move(model)));
+    query.after = page->next;
+  } while (query.after && all.size() < kMostListed);
+  return all;
 }
 
 // Marks the response as private to this caller.
 inline Response for_caller(Response response) {
   response.caching = Caching::kPrivate;
   return response;
-}
-
-struct VisibleModel {
-  FoundModel model;
-  bool is_private = false;  // true if caches must not keep responses about the model
-};
-
-// Finds a model as the client may see it. Without a token, only the public part of a published
-// model is visible. With a token, the whole model is visible, even if it is a draft.
-inline VisibleModel find_visible(const ModelId& id, bool has_token, PublishedModels& models) {
-  FoundModel published = models.find(id);
-  const bool is_all = published && *published && !(*published)->record().public_part;
-  if (!has_token || !published || is_all) return {std::move(published)};
-  return {models.find_whole(id), true};
-}
-
-// Returns the model that find_visible() would find, if it is cached and known to be current.
-// Otherwise returns null.
-inline std::shared_ptr<const PublishedModel> cached_visible(const ModelId& id, bool has_token,
-                                                            PublishedModels& models) {
-  auto published = models.cached(id);
-  const bool is_all = published && !published->record().public_part;
-  return has_token && !is_all ? models.cached_whole(id) : published;
 }
 
 // Calls `answer` with the part of the model that the caller may see. Returns 404 if there is none,

@@ -6,11 +6,12 @@
 namespace vitrine::server {
 namespace {
 
-// All nouns, in the order of the OpenAPI document. Paths are matched in this order.
-constexpr std::array kNouns = {&kCommon,   &kChunks,       &kModels, &kStreams, &kExports,
-                               &kPosters,  &kIiif,         &kOembed, &kOpenapi, &kModelOrders,
-                               &kScanners, &kCalibrations, &kScans,  &kJobs,    &kUploads,
-                               &kTokens,   &kPages};
+// All nouns of the API, in the order in which the OpenAPI document lists them. The router matches
+// paths in the same order.
+constexpr std::array kNouns = {&kCommon,  &kChunks,   &kModels,       &kStreams, &kExports,
+                               &kPosters, &kIiif,     &kOembed,       &kOpenapi, &kModelOrders,
+                               &kVisits,  &kScanners, &kCalibrations, &kScans,   &kJobs,
+                               &kUploads, &kTokens,   &kPages};
 
 }  // namespace
 

@@ -20,7 +20,8 @@ struct ApiNoun {
 };
 
 extern const ApiNoun kCommon, kChunks, kModels, kStreams, kExports, kPosters, kIiif, kOembed,
-    kOpenapi, kModelOrders, kScanners, kCalibrations, kScans, kJobs, kUploads, kTokens, kPages;
+    kOpenapi, kModelOrders, kVisits, kScanners, kCalibrations, kScans, kJobs, kUploads, kTokens,
+    kPages;
 
 std::span<const ApiNoun* const> public_nouns();
 std::span<const ApiRoute> public_routes();

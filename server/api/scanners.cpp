@@ -30,6 +30,11 @@ const nlohmann::json* only_member(const nlohmann::json& body, const char* name) 
   return found != body.end() && body.size() == 1 ? &*found : nullptr;
 }
 
+// Returns a permit that ends when the caller's token is revoked, or when its state cannot be read.
+LaserPermit permit_of(const Caller& caller, Authenticator& tokens) {
+  return [caller, &tokens] { return tokens.is_in_force(caller).value_or(false); };
+}
+
 Picture grey_picture(const acquisition::Frame& frame) {
   Picture picture{.width = static_cast<std::uint32_t>(frame.width),
                   .height = static_cast<std::uint32_t>(frame.height)};
@@ -107,7 +112,10 @@ static Response switch_laser(const Request& request, Services& services) {
       return problem(422, "give the state of the laser", request.id,
                      {{"on", "true or false, and nothing else"}});
     }
-    return after(scanner.laser(on->get<bool>()), scanner, request);
+    const auto done = on->get<bool>()
+                          ? scanner.switch_laser_on(permit_of(*request.caller, services.tokens))
+                          : scanner.switch_laser_off();
+    return after(done, scanner, request);
   });
 }
 
@@ -134,12 +142,17 @@ static Response show_preview(const Request& request, Services& services) {
 
 static constexpr std::string_view kScannersComponents = R"json({
 "schemas": {
-  "Scanner": {"type": "object", "required": ["id", "name", "state", "camera", "board", "calibration", "scan", "problem"], "properties": {
+  "Scanner": {"type": "object", "required": ["id", "name", "state", "camera", "board", "calibration", "scan", "problem", "laser", "motor"], "properties": {
     "id": {"type": "string"}, "name": {"type": "string"}, "state": {"enum": ["idle", "busy", "unreachable"]},
     "camera": {"type": ["object", "null"], "properties": {"vendor": {"type": "string"}, "model": {"type": "string"}, "serial": {"type": "string"}}},
     "board": {"type": ["object", "null"], "properties": {"dialect": {"type": "string"}, "firmware": {"type": "string"}}},
     "calibration": {"type": ["integer", "null"]}, "scan": {"$ref": "#/components/schemas/IdOrNull"},
-    "problem": {"type": ["string", "null"], "description": "The fault that keeps the scanner from working, and its remedy"}}},
+    "problem": {"type": ["string", "null"], "description": "The fault that keeps the scanner from working, and its remedy"},
+    "laser": {"type": "object", "required": ["state", "since"], "description": "unknown: the board has not confirmed that the laser is off, or its daemon does not respond",
+      "properties": {"state": {"enum": ["unknown", "off", "on"]}, "since": {"$ref": "#/components/schemas/Since"}}},
+    "motor": {"type": "object", "required": ["state", "since"], "description": "holding: the motor has power and holds the table still",
+      "properties": {"state": {"enum": ["unknown", "off", "holding", "turning"]}, "since": {"$ref": "#/components/schemas/Since"}}}}},
+  "Since": {"type": ["string", "null"], "format": "date-time", "description": "Time of the last change of the state; null if the state was never known"},
   "ScannerList": {"type": "object", "required": ["scanners"], "properties": {
     "scanners": {"type": "array", "items": {"$ref": "#/components/schemas/Scanner"}}}},
   "Jog": {"type": "object", "required": ["degrees"], "additionalProperties": false, "properties": {
@@ -164,7 +177,8 @@ static constexpr ApiRoute kScannerRoutes[] = {
      .executor = Executor::kDevice,
      .role = Role::kViewer,
      .doc = {.id = "getScanner",
-             .summary = "Returns a scanner's state and devices.",
+             .summary =
+                 "Returns a scanner's state and devices, and the state of its laser and motor.",
              .response = "Scanner"}},
     {.method = Method::kPost,
      .path = "/api/v1/scanners/{name}/jog",
@@ -181,7 +195,10 @@ static constexpr ApiRoute kScannerRoutes[] = {
      .executor = Executor::kDevice,
      .role = Role::kOperator,
      .doc = {.id = "switchLaser",
-             .summary = "Switches the laser on or off.",
+             .summary =
+                 "Switches the laser on or off. A laser that was switched on goes off after 60 "
+                 "seconds, when the token is revoked, when the table is turned by hand, and "
+                 "when a job begins.",
              .request = "LaserSwitch",
              .response = "Scanner"}},
     // An emergency stop must not wait behind requests that wait for devices or the disk.

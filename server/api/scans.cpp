@@ -26,7 +26,7 @@ Response with_scan(const Request& request, Services& services, Answer&& answer) 
       return forward(*address, request, services);
   }
   if (*scan && request.caller) return for_caller(answer(**scan));
-  if (*scan && is_public((*scan)->entry, services))
+  if (*scan && is_visible(**scan, services.models))
     return answer(ScanInfo{(*scan)->entry, without_reasons((*scan)->job)});
   // A 401 does not reveal which scans exist.
   if (!request.caller) return token_needed(request);
@@ -40,7 +40,7 @@ nlohmann::ordered_json told(std::span<const ScanInfo> scans, const Request& requ
                             Services& services) {
   auto list = nlohmann::ordered_json::array();
   std::vector<DaemonQuery> questions;
-  std::vector<std::size_t> asked;  // for each query, the index in `list` of its scan
+  std::vector<std::size_t> asked;  // for each query, the index of its scan in `list`
   for (const ScanInfo& scan : scans) {
     list.push_back(scan_json(scan));
     if (has_ended(scan.job.record.state)) continue;
@@ -68,7 +68,7 @@ Response state_after(const Expected<void>& done, const ScanId& id, const Request
   if (!done) return refused(done.error(), request, services);
   const auto scan = services.scans.find(id);
   if (!scan || !*scan) return problem(404, "there is no such scan", request.id);
-  // 202, since the command takes effect only at the next step.
+  // 202, since the command takes effect only at the next step of the turntable.
   return json_answer(scan_json(**scan), 202);
 }
 
@@ -117,9 +117,9 @@ static Response list_scans(const Request& request, Services& services) {
   if (!page) return page.error();
   const auto scans = services.scans.list(*page);
   if (!scans) return internal_error(scans.error(), request, services);
-  nlohmann::ordered_json json = {{"scans", told(*scans, request, services)}, {"next", nullptr}};
-  if (scans->size() == page->limit) json["next"] = scans->back().entry.id.to_string();
-  return json_answer(json);
+  std::optional<std::string> next;
+  if (scans->size() == page->limit) next = scans->back().entry.id.to_string();
+  return list_answer("scans", told(*scans, request, services), next, request);
 }
 
 static Response show_scan(const Request& request, Services& services) {
@@ -171,15 +171,30 @@ static Response resume_scan(const Request& request, Services& services) {
   });
 }
 
+static Response is_limited(const Request& request) {
+  return problem(409,
+                 "public_max_level limits the scan's model; reprocess without publish, then limit "
+                 "and publish the new model, whose levels differ",
+                 request.id);
+}
+
 static Response reprocess_scan(const Request& request, Services& services) {
   return with_scan(request, services, [&](const ScanInfo& scan) {
     auto before = ScanService::order_of(scan.entry);
     if (!before) return refused(before.error(), request, services);
-    const bool is_whole = scan.entry.step == scan.entry.steps;
-    // If the scan is incomplete, its model becomes public only if this order asks for it.
-    before->is_public = before->is_public && is_whole;
+    const bool is_whole = scan.entry.step == scan.entry.steps,
+               has_model = scan.entry.model.has_value();
+    // Unless this order says whether to publish, the model of an incomplete scan is a draft, and a
+    // model that replaces another is public if visitors see all of that one.
+    before->is_public = before->is_public && is_whole && !has_model;
+    before->is_public_as_before = is_whole && has_model;
     const auto order = parse_reprocess_order(request.body, *before);
     if (!order) return invalid(order.error(), request);
+    if (order->is_public && has_model) {
+      const auto model = services.catalogue.find(*scan.entry.model);
+      if (!model) return refused(model.error(), request, services);
+      if (*model && (*model)->public_part) return is_limited(request);
+    }
     if (!knows_calibration(*order, services)) return unknown_calibration(request);
     if (const auto faults = check_webhook(order->webhook, services); !faults.empty())
       return invalid(faults, request);
@@ -187,6 +202,16 @@ static Response reprocess_scan(const Request& request, Services& services) {
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);
     return job ? started(*job) : refused_job(job.error(), request, services);
+  });
+}
+
+static Response remove_scan_data(const Request& request, Services& services) {
+  return with_scan(request, services, [&](const ScanInfo& scan) {
+    if (const auto removed = services.scans.remove_data(scan.entry); !removed)
+      return refused(removed.error(), request, services);
+    Response response;
+    response.status = 204;
+    return response;
   });
 }
 
@@ -203,14 +228,14 @@ static constexpr std::string_view kScansComponents = R"json({
     "largest_angle": {"type": "number", "minimum": 0}, "largest_hole": {"type": "number", "minimum": 0, "description": "mm"},
     "bits": {"anyOf": [{"const": "auto"}, {"const": 0}, {"type": "integer", "minimum": 10, "maximum": 16}], "default": "auto"},
     "placement": {"enum": ["midpoint", "pyramid"]}, "metadata": {"$ref": "#/components/schemas/Metadata"},
-    "publish": {"type": "boolean", "default": false, "description": "Whether to publish the model; otherwise it stays a draft"}, "webhook": {"$ref": "#/components/schemas/Webhook"}}},
+    "publish": {"type": "boolean", "description": "Whether to publish the model; otherwise it stays a draft"}, "webhook": {"$ref": "#/components/schemas/Webhook"}}},
   "ScanOrder": {"required": ["scanner"], "unevaluatedProperties": false, "allOf": [{"$ref": "#/components/schemas/Processing"}],
     "type": "object", "properties": {
-    "scanner": {"type": "string", "description": "The scanner's name"}, "steps": {"type": "integer", "default": 720},
+    "publish": {"default": false}, "scanner": {"type": "string", "description": "The scanner's name"}, "steps": {"type": "integer", "default": 720},
     "exposure": {"type": "number", "minimum": 1, "description": "Exposure time in microseconds; the scanner's own setting by default"},
     "keep_frames": {"type": "boolean", "default": false}}},
   "ReprocessOrder": {"type": "object", "unevaluatedProperties": false, "allOf": [{"$ref": "#/components/schemas/Processing"}],
-    "description": "Options not given keep the values used by the scan"},
+    "description": "Options not given keep the values used by the scan. Without `publish`, the new model is public if visitors see the whole model before it. If `public_max_level` limits that one, the new model must be a draft"},
   "ScanStarted": {"type": "object", "required": ["id", "job"], "properties": {
     "id": {"$ref": "#/components/schemas/Id"}, "job": {"$ref": "#/components/schemas/Id"}}},
   "Scan": {"type": "object", "required": ["id", "job", "scanner", "state", "step", "steps", "progress", "eta", "error", "note", "points", "model", "title", "created"],
@@ -304,6 +329,15 @@ static constexpr ApiRoute kScanRoutes[] = {
              .request = "ReprocessOrder",
              .status = 202,
              .response = "ScanStarted"}},
+    {.method = Method::kDelete,
+     .path = "/api/v1/scans/{id}/data",
+     .handler = remove_scan_data,
+     .executor = Executor::kDisk,
+     .role = Role::kOperator,
+     .doc = {.id = "removeScanData",
+             .summary = "Deletes a scan's profiles, points and pictures permanently. Its record "
+                        "and its models stay.",
+             .status = 204}},
 };
 
 const ApiNoun kScans = {.routes = kScanRoutes, .components = kScansComponents};

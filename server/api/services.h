@@ -8,14 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "server/api/export_cache.h"
 #include "server/api/web_pages.h"
 #include "server/auth/authenticator.h"
 #include "server/catalogue/catalogue.h"
+#include "server/catalogue/visit_counter.h"
 #include "server/config/live_settings.h"
+#include "server/export/export_cache.h"
 #include "server/http/admission_limit.h"
 #include "server/jobs/collector.h"
 #include "server/jobs/scan_service.h"
+#include "server/jobs/scrubber.h"
 #include "server/jobs/webhooks.h"
 #include "server/log/log.h"
 #include "server/metrics/metrics.h"
@@ -35,11 +37,13 @@ struct Services {
   Uploads& uploads;
   Quota& quota;
   Collector& collector;
+  const Scrubber& scrubber;
   const Webhooks& webhooks;
   ExportCache& exports;
   const WebPages& pages;
   const LiveSettings& settings;
   Metrics& metrics;
+  VisitCounter& visits;
   const Log& log;     // the access log
   const Log& errors;  // log of the events that the operator must know
   std::atomic<bool> ready{false};
@@ -51,7 +55,7 @@ struct Services {
   // stops have separate limits. One address may use at most half of the limit for requests without
   // a token. For each forwarded request there is an additional waiting thread (WorkerOptions), so
   // that other requests and the watchdog never wait for another daemon.
-  static constexpr std::size_t kMostForwarded = 8;  // for each of the three kinds of requests
+  static constexpr std::size_t kMostForwarded = 8;  // limit for each of the three kinds of requests
   static constexpr unsigned kWaitingThreads = 3 * kMostForwarded;
   const std::shared_ptr<AdmissionLimit> forwarded_for_strangers =
       std::make_shared<AdmissionLimit>(kMostForwarded, kMostForwarded / 2);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <mutex>
 
 #include "server/api/handlers.h"
 #include "server/api/published.h"
@@ -22,8 +24,8 @@ Response upgrade_required(std::string_view request_id) {
   return response;
 }
 
-// Reads the query parameter `head`: whether to send the model's head (header and base mesh) first.
-// Returns false if it is absent, nullopt if the query is invalid.
+// Reads the query parameter `head`: whether to send the model's head (Manifest::head_bytes())
+// first. Returns false if it is absent, nullopt if the query is invalid.
 std::optional<bool> head_in(std::string_view text) {
   constexpr std::string_view kKnown[] = {"head"};
   const auto query = Query::parse(text);
@@ -37,7 +39,7 @@ bool offers_protocol(const RequestHeader& header) {
   return beast::http::token_list(header[field::sec_websocket_protocol]).exists("pmesh.v1");
 }
 
-// Counts one open stream in the metrics until destroyed.
+// Counts one open stream in the metrics until this object is destroyed.
 class OpenStream {
  public:
   explicit OpenStream(Metrics& metrics) : metrics_(metrics) {
@@ -62,13 +64,68 @@ struct StreamClient {
   }
 };
 
+// Whether the client still sees the model, and the model's file is still the one that was opened.
+bool is_current(const PublishedModel& opened, const FoundModel& now) {
+  return now && *now && (*now)->record().file == opened.record().file;
+}
+
+// The models that one stream has open. Thread-safe.
+class OpenModels {
+ public:
+  void set(std::vector<StreamedModel> models) {
+    const std::scoped_lock lock(mutex_);
+    models_ = std::make_shared<const Models>(std::move(models));
+    checked_.reset();
+  }
+
+  // Whether all models are current. Checks the models only if the catalogue has changed since the
+  // last call. A model that cannot be looked up counts as current, because the cache still serves
+  // it. The next call checks again.
+  bool are_current(bool has_token, PublishedModels& cache) {
+    const auto revision = cache.revision();
+    if (!revision) return true;
+    const auto models = unchecked(*revision);
+    if (!models) return true;
+    bool are_all_found = true;
+    for (const StreamedModel& model : *models) {
+      const FoundModel now = find_visible(model->record().id, has_token, cache).model;
+      if (now && !is_current(*model, now)) return false;
+      if (!now) are_all_found = false;
+    }
+    if (are_all_found) set_checked(models, *revision);
+    return true;
+  }
+
+ private:
+  using Models = std::vector<StreamedModel>;
+
+  // Returns the models, or null if they were checked at this revision.
+  std::shared_ptr<const Models> unchecked(std::uint64_t revision) {
+    const std::scoped_lock lock(mutex_);
+    return checked_ == revision ? nullptr : models_;
+  }
+  // Keeps the old revision if the stream has opened or closed a model since unchecked().
+  void set_checked(const std::shared_ptr<const Models>& models, std::uint64_t revision) {
+    const std::scoped_lock lock(mutex_);
+    if (models == models_) checked_ = revision;
+  }
+
+  std::mutex mutex_;  // guards the members below
+  std::shared_ptr<const Models> models_ = std::make_shared<const Models>();
+  std::optional<std::uint64_t> checked_;  // the catalogue's revision at the last complete check
+};
+
 // Gives one stream access to the rest of the daemon. Models are looked up on a worker. Each `open`
 // message counts towards the client's request rate.
 class ModelStreamHost : public StreamHost {
  public:
   ModelStreamHost(std::shared_ptr<Connection> connection, const StreamClient& client,
-                  Services& services, HttpServer& server)
-      : connection_(std::move(connection)), client_(client), services_(services), server_(server) {}
+                  OpenModels& open, Services& services, HttpServer& server)
+      : connection_(std::move(connection)),
+        client_(client),
+        open_(open),
+        services_(services),
+        server_(server) {}
   ~ModelStreamHost() override { connection_->on_drain = nullptr; }
 
   asio::awaitable<Expected<StreamedModel>> find(std::string text) override {
@@ -79,13 +136,15 @@ class ModelStreamHost : public StreamHost {
     co_return co_await find_on_worker(*id);
   }
 
-  // Answers from memory if it can; otherwise looks up the model again.
+  // Answers from memory if possible. Otherwise looks up the model again.
   asio::awaitable<bool> is_current(StreamedModel model) override {
     const ModelRecord& opened = model->record();
-    if (!client_.caller && services_.models.cached(opened.id) == model) co_return true;
-    const auto now = co_await find_on_worker(opened.id);
-    co_return now && (*now)->record().file == opened.file;
+    if (!client_.caller && cached_visible(opened.id, false, services_.models) == model)
+      co_return true;
+    co_return server::is_current(*model, co_await find_on_worker(opened.id));
   }
+
+  void shows(std::vector<StreamedModel> models) override { open_.set(std::move(models)); }
 
   void on_drain(std::function<void()> stop) override {
     if (connection_->draining) stop();
@@ -108,7 +167,7 @@ class ModelStreamHost : public StreamHost {
  private:
   asio::awaitable<Expected<StreamedModel>> find_on_worker(ModelId id) {
     auto work = [&]() -> asio::awaitable<Expected<StreamedModel>> { co_return find_now(id); };
-    co_return co_await asio::co_spawn(server_.workers().executor(Executor::kWorker, ""), work,
+    co_return co_await asio::co_spawn(server_.workers().executor(Executor::kWorker), work,
                                       asio::use_awaitable);
   }
 
@@ -133,6 +192,7 @@ class ModelStreamHost : public StreamHost {
 
   const std::shared_ptr<Connection> connection_;
   const StreamClient& client_;
+  OpenModels& open_;
   Services& services_;
   HttpServer& server_;
 };
@@ -148,19 +208,24 @@ class StreamUpgrade : public Upgrade {
   asio::awaitable<void> serve(UpgradedConnection upgraded, HttpServer& server) override {
     const OpenStream counted(services_.metrics);
     const auto connection = std::move(upgraded.connection);
-    ModelStreamHost host(connection, client_, services_, server);
+    ModelStreamHost host(connection, client_, open_, services_, server);
     const StreamOptions options = {
         .timeout = server.pace().timeout,
         .sends_head = sends_head_,
-        .is_direct = !services_.settings.get()->trusted_proxies.contain(connection->remote)};
+        .is_direct = !services_.settings.get().trusted_proxies.contain(connection->remote)};
     const std::shared_ptr<ByteStream> socket(connection, &connection->socket);
     co_await serve_stream(socket, std::move(upgraded.request), std::move(model_), options, host,
                           services_.busy_streams);
   }
 
+  bool may_continue() override {
+    return open_.are_current(client_.caller.has_value(), services_.models);
+  }
+
  private:
   StreamedModel model_;
   const StreamClient client_;
+  OpenModels open_;
   const bool sends_head_;
   Services& services_;
 };
@@ -174,7 +239,7 @@ static Response open_stream(const Request& request, Services& services) {
   }
   const auto sends_head = head_in(request.query);
   if (!sends_head) return problem(400, "head is true or false", request.id);
-  if (!is_allowed_origin(request.header, services.settings.get()->allowed_origins)) {
+  if (!is_allowed_origin(request.header, services.settings.get().allowed_origins)) {
     return problem(403, "pages of this origin may not open streams here", request.id);
   }
   return with_model(request, services, [&](const auto& model) {

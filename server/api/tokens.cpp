@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The routes with which administrators list, create and revoke tokens of the API.
+// Defines the routes with which administrators list, create and revoke tokens of the API.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -49,11 +49,12 @@ static Response list_tokens(const Request& request, Services& services) {
   auto first = tokens->begin();
   if (page->after) first = std::ranges::upper_bound(*tokens, *page->after, {}, &TokenRecord::id);
   const auto last = std::ranges::next(first, page->limit, tokens->end());
-  nlohmann::ordered_json json = {{"tokens", nlohmann::ordered_json::array()}, {"next", nullptr}};
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (auto token = first; token != last; ++token)
-    json["tokens"].push_back(token_json(*token));
-  if (last != tokens->end()) json["next"] = std::prev(last)->id.to_string();
-  return json_answer(json);
+    list.push_back(token_json(*token));
+  std::optional<std::string> next;
+  if (last != tokens->end()) next = std::prev(last)->id.to_string();
+  return list_answer("tokens", std::move(list), next, request);
 }
 
 static Response add_token(const Request& request, Services& services) {

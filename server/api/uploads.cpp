@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Serves resumable uploads: tus 1.0.0 (https://tus.io/protocols/resumable-upload) with its
-// extensions creation, creation-with-upload, expiration and termination.
+// extensions creation, creation-defer-length, creation-with-upload, checksum, expiration and
+// termination.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +12,9 @@
 #include "server/api/job_json.h"
 #include "server/api/path_parameters.h"
 #include "server/api/published.h"
+#include "server/jobs/free_space.h"
 #include "server/jobs/publish_jobs.h"
+#include "server/messages/body_checksum.h"
 #include "server/messages/body_sink.h"
 #include "server/messages/timestamp.h"
 
@@ -21,7 +24,10 @@ namespace {
 using beast::http::field;
 
 constexpr std::string_view kVersion = "1.0.0";
+constexpr std::string_view kExtensions =
+    "creation,creation-defer-length,creation-with-upload,checksum,expiration,termination";
 constexpr std::string_view kPieceType = "application/offset+octet-stream";
+constexpr unsigned kChecksumMismatch = 460;  // of tus
 
 std::string_view value(const RequestHeader& header, std::string_view name) {
   const auto found = header[{name.data(), name.size()}];
@@ -78,58 +84,115 @@ void add_state(Response& response, const Upload& upload) {
   response.fields.emplace_back("Upload-Expires", http_date(upload.expires / 1000));
 }
 
+// Returns the unfinished job that needs an upload, or nullopt if there is none.
+Expected<std::optional<JobRecord>> job_of(const UploadId& upload, Services& services) {
+  return services.scans.jobs().job_where(
+      [&](const JobRecord& job) { return PublishJobs::upload_of(job) == upload; });
+}
+
+// Ends an upload and frees its bytes, unless a job needs it. If that is unknown, because the
+// catalogue is unreachable, the upload stays until it expires.
+void discard(const UploadId& upload, Services& services) {
+  const auto held = services.uploads.hold();
+  if (const auto job = job_of(upload, services); job && !*job)
+    static_cast<void>(services.uploads.remove(upload));
+}
+
 // Writes the pieces of a body to an upload as they arrive. The response is sent once they are on
-// the disk.
+// the disk. If the client has sent a checksum that the body does not have, the upload stays as it
+// was before. If the disk has no room for the body, the upload ends, because its bytes would take
+// the room of others. If the request has created the upload, any refusal ends it, because the
+// client never learns its ID.
 class UploadSink final : public BodySink {
  public:
-  UploadSink(Response answer, UploadWriter writer, const UploadId& upload,
-             std::string_view request_id, Services& services)
+  UploadSink(Response answer, UploadWriter writer, std::optional<BodyChecksum> checksum,
+             const UploadId& upload, std::string_view request_id, Services& services)
       : answer_(std::move(answer)),
         writer_(std::move(writer)),
+        checksum_(std::move(checksum)),
         upload_(upload),
         request_id_(request_id),
         services_(services) {}
 
   std::optional<Response> take(std::span<const std::uint8_t> piece) override {
+    if (checksum_) checksum_->add(piece);
     const auto appended = writer_.append(piece);
     if (appended) return std::nullopt;
-    static_cast<void>(writer_.sync());  // saves the bytes that fit, so that the client can resume
-    return refusal(appended.error(), request_id_, services_);
+    static_cast<void>(writer_.sync());  // saves the bytes so far, so that the client can resume
+    return refused(appended.error());
   }
 
   Response finish() override {
-    if (const auto synced = writer_.sync(); !synced)
-      return refusal(synced.error(), request_id_, services_);
+    if (checksum_ && !checksum_->is_met()) {
+      if (const auto done = writer_.take_back(); !done) return refused(done.error());
+      if (is_creation()) discard(upload_, services_);
+      return tus(problem(kChecksumMismatch, "the bytes do not have the checksum; send them again",
+                         request_id_));
+    }
+    if (const auto synced = writer_.sync(); !synced) return refused(synced.error());
     const auto now = services_.uploads.find(upload_);
-    if (!now) return refusal(now.error(), request_id_, services_);
+    if (!now) return refused(now.error());
     add_state(answer_, *now);
     return std::move(answer_);
   }
 
  private:
+  bool is_creation() const { return answer_.status == 201; }
+
+  Response refused(UploadFault fault) {
+    const bool is_full = fault.cause == UploadFault::kNoRoom;
+    if (is_full || is_creation()) discard(upload_, services_);
+    if (is_full) fault.message += ", and upload the file again: its bytes were removed";
+    return refusal(fault, request_id_, services_);
+  }
+
   Response answer_;
   UploadWriter writer_;
+  std::optional<BodyChecksum> checksum_;
   const UploadId upload_;
   const std::string request_id_;
   Services& services_;
 };
 
+bool is_of_caller(const Upload& upload, const Request& request) {
+  return upload.token == request.caller->token || request.caller->role >= Role::kAdmin;
+}
+
 // Returns the upload of the request's {id}, or kGone if it belongs to another token and the caller
 // is not an administrator.
 Uploading<Upload> own_upload(const Request& request, Services& services) {
   auto upload = services.uploads.find(id_in<UploadId>(request));
-  const bool may =
-      upload && (upload->token == request.caller->token || request.caller->role >= Role::kAdmin);
-  if (!upload || may) return upload;
+  if (!upload || is_of_caller(*upload, request)) return upload;
   return tl::unexpected(UploadFault{UploadFault::kGone, "there is no such upload"});
 }
 
-// Creates an upload if it fits into the quota.
-Uploading<Upload> announce(std::uint64_t length, std::string_view metadata, const Request& request,
-                           Services& services) {
+// Checks that `length` more bytes leave the disk's reserve free once all open uploads are complete.
+Uploading<void> check_room(std::uint64_t length, Services& services) {
+  const auto open = services.uploads.list();
+  if (!open) return tl::unexpected(open.error());
+  const Settings& settings = services.settings.get();
+  const std::uint64_t free = free_space(settings);
+  std::uint64_t room = free - std::min(free, settings.disk_reserve_bytes);
+  for (const Upload& upload : *open)
+    room -= std::min(room, upload.length - upload.offset);
+  if (length <= room) return {};
+  return tl::unexpected(UploadFault{
+      UploadFault::kNoRoom,
+      fmt::format("the disk has no room for {} bytes; remove models or add disk space", length)});
+}
+
+// Creates an upload if it fits into the quota and leaves the disk's reserve free.
+// Without a length, room for the largest upload is needed.
+Uploading<Upload> announce(std::optional<std::uint64_t> length, std::string_view metadata,
+                           const Request& request, Services& services) {
   Uploading<Upload> upload;
-  const auto fits = services.quota.admit(length, [&] {
-    upload = services.uploads.create(request.caller->token, length, std::string(metadata));
+  const std::uint64_t most = length.value_or(services.uploads.limits().bytes);
+  const auto fits = services.quota.admit(most, [&] {
+    if (const auto room = check_room(most, services); !room) {
+      upload = tl::unexpected(room.error());
+    } else {
+      upload = services.uploads.create(request.caller->token, length, std::string(metadata));
+    }
   });
   if (fits) return upload;
   const bool is_full = fits.error().code == ErrorCode::kLimit;
@@ -141,17 +204,28 @@ bool is_printable(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return c >= 0x20 && c < 0x7F; });
 }
 
-// Returns a response that first appends the request's body to the upload and then becomes `answer`.
+// Returns a response that first appends the request's body to the upload, and then sends `answer`.
 Response pour(Response answer, const Upload& upload, const Request& request, Services& services) {
   const auto length = number(request.header, "Content-Length").value_or(0);
   if (length > upload.length - upload.offset) {
     return refusal({UploadFault::kTooLarge, "the body exceeds the Upload-Length"}, request.id,
                    services);
   }
+  std::optional<BodyChecksum> checksum;
+  if (const auto field = value(request.header, "Upload-Checksum"); !field.empty()) {
+    checksum = BodyChecksum::parse(field);
+    if (!checksum) {
+      return tus(problem(400,
+                         fmt::format("Upload-Checksum is not one of {}, a blank and the hash in "
+                                     "base64",
+                                     BodyChecksum::kAlgorithms),
+                         request.id));
+    }
+  }
   auto writer = services.uploads.writer(upload.id, upload.offset);
   if (!writer) return refusal(writer.error(), request.id, services);
-  answer.sink =
-      std::make_shared<UploadSink>(answer, std::move(*writer), upload.id, request.id, services);
+  answer.sink = std::make_shared<UploadSink>(answer, std::move(*writer), std::move(checksum),
+                                             upload.id, request.id, services);
   return answer;
 }
 
@@ -162,25 +236,63 @@ static Response show_upload_options(const Request&, Services& services) {
   response.status = 204;
   response.fields = {{"Allow", "GET, HEAD, POST, PATCH, DELETE, OPTIONS"},
                      {"Tus-Version", std::string(kVersion)},
-                     {"Tus-Extension", "creation,creation-with-upload,expiration,termination"},
+                     {"Tus-Extension", std::string(kExtensions)},
+                     {"Tus-Checksum-Algorithm", std::string(BodyChecksum::kAlgorithms)},
                      {"Tus-Max-Size", std::to_string(services.uploads.limits().bytes)}};
   return tus(std::move(response));
+}
+
+static nlohmann::ordered_json upload_json(const Upload& upload) {
+  return {{"id", upload.id.to_string()},
+          {"token", upload.token.to_string()},
+          {"length", upload.is_length_known ? nlohmann::ordered_json(upload.length) : nullptr},
+          {"offset", upload.offset},
+          {"expires", timestamp(upload.expires)},
+          {"metadata", upload.metadata}};
+}
+
+// Lists the caller's uploads, or all uploads if the caller is an administrator.
+static Response list_uploads(const Request& request, Services& services) {
+  const auto page = read_page<UploadId>(request);
+  if (!page) return page.error();
+  auto uploads = services.uploads.list();
+  if (!uploads) return refusal(uploads.error(), request.id, services);
+  std::erase_if(*uploads, [&](const Upload& upload) {
+    return !is_of_caller(upload, request) || (page->after && upload.id <= *page->after);
+  });
+  std::ranges::sort(*uploads, {}, &Upload::id);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const bool has_more = uploads->size() > page->limit;
+  if (has_more) uploads->resize(page->limit);
+  for (const Upload& upload : *uploads)
+    list.push_back(upload_json(upload));
+  std::optional<std::string> next;
+  if (has_more) next = uploads->back().id.to_string();
+  return list_answer("uploads", std::move(list), next, request);
 }
 
 static Response create_upload(const Request& request, Services& services) {
   if (auto refused = refuse_version(request)) return *refused;
   const auto length = number(request.header, "Upload-Length");
   const std::string_view metadata = value(request.header, "Upload-Metadata");
-  if (!length) return tus(problem(400, "send Upload-Length, the number of bytes", request.id));
+  const bool is_deferred = value(request.header, "Upload-Defer-Length") == "1";
+  if (length.has_value() == is_deferred) {
+    return tus(problem(400, "send Upload-Length, the number of bytes, or Upload-Defer-Length: 1",
+                       request.id));
+  }
   if (!is_printable(metadata))
     return tus(problem(400, "Upload-Metadata is not in base64", request.id));
   const bool with_piece = value(request.header, "Content-Type") == kPieceType;
-  const auto upload = announce(*length, metadata, request, services);
+  const auto upload = announce(length, metadata, request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
   Response response;
   response.status = 201;
   response.fields = {{"Location", "/api/v1/uploads/" + upload->id.to_string()}};
-  if (with_piece) return pour(tus(std::move(response)), *upload, request, services);
+  if (with_piece) {
+    Response poured = pour(tus(std::move(response)), *upload, request, services);
+    if (!poured.sink) discard(upload->id, services);
+    return poured;
+  }
   add_state(response, *upload);
   return tus(std::move(response));
 }
@@ -190,12 +302,13 @@ static Response show_upload(const Request& request, Services& services) {
   if (auto refused = refuse_version(request); refused && of_tus) return *refused;
   const auto upload = own_upload(request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
-  Response response = json_answer({{"id", upload->id.to_string()},
-                                   {"length", upload->length},
-                                   {"offset", upload->offset},
-                                   {"expires", timestamp(upload->expires)}});
+  Response response = json_answer(upload_json(*upload));
   add_state(response, *upload);
-  response.fields.emplace_back("Upload-Length", std::to_string(upload->length));
+  if (upload->is_length_known) {
+    response.fields.emplace_back("Upload-Length", std::to_string(upload->length));
+  } else {
+    response.fields.emplace_back("Upload-Defer-Length", "1");
+  }
   if (!upload->metadata.empty()) response.fields.emplace_back("Upload-Metadata", upload->metadata);
   return tus(std::move(response));
 }
@@ -214,6 +327,13 @@ static Response append_to_upload(const Request& request, Services& services) {
                             fmt::format("the offset is {}; continue from there", upload->offset)};
     return refusal(moved, request.id, services);
   }
+  if (const auto length = number(request.header, "Upload-Length")) {
+    if (const auto stated = services.uploads.state_length(upload->id, *length); !stated) {
+      if (stated.error().cause == UploadFault::kNoRoom) discard(upload->id, services);
+      return refusal(stated.error(), request.id, services);
+    }
+    upload->length = *length;
+  }
   Response response;
   response.status = 204;
   return pour(tus(std::move(response)), *upload, request, services);
@@ -224,8 +344,7 @@ static Response remove_upload(const Request& request, Services& services) {
   const auto upload = own_upload(request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
   const auto held = services.uploads.hold();
-  const auto job = services.scans.jobs().job_where(
-      [&](const JobRecord& one) { return PublishJobs::upload_of(one) == upload->id; });
+  const auto job = job_of(upload->id, services);
   if (!job) return tus(internal_error(job.error(), request, services));
   if (*job) {
     return tus(problem(409,
@@ -243,17 +362,24 @@ static Response remove_upload(const Request& request, Services& services) {
 static constexpr std::string_view kUploadsComponents = R"json({
 "parameters": {
   "tusResumable": {"name": "Tus-Resumable", "in": "header", "required": true, "schema": {"const": "1.0.0"}},
-  "uploadLength": {"name": "Upload-Length", "in": "header", "required": true, "description": "Size of the whole file in bytes",
+  "uploadLength": {"name": "Upload-Length", "in": "header", "description": "Size of the whole file in bytes; until it is stated, the upload is not complete",
     "schema": {"type": "integer", "minimum": 0}},
+  "uploadDeferLength": {"name": "Upload-Defer-Length", "in": "header", "description": "1 in place of Upload-Length, if a later request states the size",
+    "schema": {"const": 1}},
+  "uploadChecksum": {"name": "Upload-Checksum", "in": "header", "description": "sha1, sha256 or md5, a blank, and the hash of this request's body in Base64. If it does not fit, the response is 460 and the upload stays as it was",
+    "schema": {"type": "string"}},
   "uploadMetadata": {"name": "Upload-Metadata", "in": "header", "description": "Keys, each with its Base64 value; stored and returned to the client",
     "schema": {"type": "string"}},
   "uploadOffset": {"name": "Upload-Offset", "in": "header", "required": true, "description": "Offset of this piece in bytes. It must equal the bytes received so far; otherwise the response is 409",
     "schema": {"type": "integer", "minimum": 0}}
 },
 "schemas": {
-  "Upload": {"type": "object", "required": ["id", "length", "offset", "expires"], "properties": {
-    "id": {"$ref": "#/components/schemas/Id"}, "length": {"type": "integer"}, "offset": {"type": "integer"},
-    "expires": {"$ref": "#/components/schemas/Time"}}}
+  "Upload": {"type": "object", "required": ["id", "token", "length", "offset", "expires", "metadata"], "properties": {
+    "id": {"$ref": "#/components/schemas/Id"}, "token": {"$ref": "#/components/schemas/Id", "description": "ID of the token that created the upload"},
+    "length": {"type": ["integer", "null"], "description": "Size in bytes; null until the client states it"}, "offset": {"type": "integer"}, "expires": {"$ref": "#/components/schemas/Time"},
+    "metadata": {"type": "string", "description": "Upload-Metadata as the client sent it: keys, each with its Base64 value"}}},
+  "UploadPage": {"type": "object", "required": ["uploads", "next"], "properties": {"next": {"$ref": "#/components/schemas/Next"},
+    "uploads": {"type": "array", "items": {"$ref": "#/components/schemas/Upload"}}}}
 }
 })json";
 
@@ -262,6 +388,16 @@ static constexpr ApiRoute kUploadRoutes[] = {
      .path = "/api/v1/uploads",
      .handler = show_upload_options,
      .executor = Executor::kInline},
+    {.method = Method::kGet,
+     .path = "/api/v1/uploads",
+     .handler = list_uploads,
+     .executor = Executor::kDisk,
+     .role = Role::kOperator,
+     .doc = {.id = "listUploads",
+             .summary = "Lists the caller's open uploads, oldest first; all uploads for an "
+                        "administrator. DELETE ends a lost one.",
+             .parameters = "limit cursor",
+             .response = "UploadPage"}},
     {.method = Method::kPost,
      .path = "/api/v1/uploads",
      .handler = create_upload,
@@ -271,7 +407,8 @@ static constexpr ApiRoute kUploadRoutes[] = {
      .doc = {.id = "createUpload",
              .summary = "Creates a resumable upload (tus 1.0.0). A body of type "
                         "application/offset+octet-stream becomes its first piece.",
-             .parameters = "tusResumable uploadLength uploadMetadata",
+             .parameters =
+                 "tusResumable uploadLength uploadDeferLength uploadMetadata uploadChecksum",
              .status = 201}},
     {.method = Method::kOptions,
      .path = "/api/v1/uploads/{id}",
@@ -295,7 +432,7 @@ static constexpr ApiRoute kUploadRoutes[] = {
      .doc = {.id = "appendToUpload",
              .summary =
                  "Appends a piece to an upload. The server responds once the piece is on disk.",
-             .parameters = "tusResumable uploadOffset",
+             .parameters = "tusResumable uploadOffset uploadLength uploadChecksum",
              .request = "application/offset+octet-stream",
              .status = 204}},
     {.method = Method::kDelete,

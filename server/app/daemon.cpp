@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "server/api/handlers.h"
 #include "server/api/job_json.h"
 #include "server/api/path_parameters.h"
 #include "server/api/routes.h"
@@ -22,16 +23,20 @@
 #include "server/app/port_file.h"
 #include "server/app/service_manager.h"
 #include "server/config/command_line.h"
+#include "server/config/host_names.h"
 #include "server/config/live_settings.h"
 #include "server/config/read_file.h"
 #include "server/config/reload.h"
 #include "server/http/http_server.h"
+#include "server/jobs/cache_purge.h"
 #include "server/jobs/clock.h"
 #include "server/jobs/open_scanners.h"
+#include "server/jobs/periodic_task.h"
 #include "server/jobs/place_of.h"
 #include "server/jobs/publish_jobs.h"
 #include "server/remote/remote_server.h"
 #include "server/store/installation.h"
+#include "server/store/text.h"
 #include "server/transport/live_tls.h"
 
 namespace vitrine::server {
@@ -40,14 +45,24 @@ namespace {
 constexpr std::size_t kAdminConnections = 64;
 constexpr std::chrono::minutes kCollectEvery{10};
 constexpr std::chrono::milliseconds kStaleness{100};  // how long cached models may be out of date
+// How often cached models are checked, even without requests.
+constexpr std::chrono::milliseconds kModelCheckEvery{500};
 constexpr std::chrono::seconds kScannerLease{30};
-// A webhook that the settings do not allow is given up this long after the job's end.
+// How often counted visits are written to the catalogue. An abrupt end loses the visits since then.
+constexpr std::chrono::seconds kVisitFlushEvery{10};
+// Time after a job's end at which the daemon gives up on a webhook that the settings do not allow.
 constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);
 // Largest number of exports that run or wait at a time. A running export holds a decoded mesh.
 constexpr std::size_t kMaxExports = 64;
 
 Unexpected of_admin(const Error& error) {
   return fail(error.code, "--admin-listen: " + error.message);
+}
+
+bool others_may_read(const std::filesystem::path& folder) {
+  std::error_code unknown;
+  const auto mode = std::filesystem::status(folder, unknown).permissions();
+  return (mode & std::filesystem::perms::others_all) != std::filesystem::perms::none;
 }
 
 // Checks that the daemon can listen on its addresses. Called before the data folder is created, so
@@ -100,35 +115,47 @@ class Daemon {
         access_log_(std::move(access_log)),
         claims_(std::move(claims)),
         models_(*installation_.store, *installation_.catalogue, kStaleness,
-                live_.get()->model_cache_bytes),
-        uploads_(uploads_of(*live_.get()), {.bytes = live_.get()->max_upload_bytes,
-                                            .per_token = live_.get()->max_uploads,
-                                            .lifetime = live_.get()->upload_lifetime}),
-        quota_(*installation_.catalogue, uploads_, live_.get()->quota_bytes),
-        webhooks_(live_.get()->webhook_hosts, events_),
+                live_.get().model_cache_bytes),
+        uploads_(uploads_of(live_.get()), {.bytes = live_.get().max_upload_bytes,
+                                           .per_token = live_.get().max_uploads,
+                                           .lifetime = live_.get().upload_lifetime}),
+        quota_(*installation_.catalogue, uploads_, live_.get().quota_bytes),
+        webhooks_(live_.get().webhook_hosts, events_, live_.get().webhook_key),
+        purge_(live_.get().purge_urls, *installation_.catalogue, events_),
         publishing_(
-            {*installation_.store, *installation_.catalogue, uploads_, quota_, live_.get()->data}),
+            {*installation_.store, *installation_.catalogue, uploads_, quota_, live_.get().data}),
         collector_({*installation_.store, *installation_.catalogue, *installation_.jobs, uploads_,
-                    events_, live_.get()->collect_after}),
+                    events_, live_.get().collect_after}),
+        scrubber_(
+            {.store = *installation_.store,
+             .catalogue = *installation_.catalogue,
+             .models = models_,
+             .catalogue_faults = [this] { return find_catalogue_faults(installation_.place); },
+             .events = events_}),
         scans_({.store = *installation_.store,
                 .catalogue = *installation_.catalogue,
                 .jobs = *installation_.jobs,
                 .events = events_,
-                .data = live_.get()->data,
+                .data = live_.get().data,
                 .publishing = [this](JobRun& run) { return publishing_.work(run); },
                 .quota = &quota_,
-                .taken = {.builds = live_.get()->roles.builds,
-                          .scans = live_.get()->roles.scans,
+                .taken = {.builds = live_.get().roles.builds,
+                          .scans = live_.get().roles.scans,
                           .holder = lock_.id,
                           .drives =
                               [this](const std::string& scanner) {
                                 return claims_->has_jobs_of(scanner);
                               }},
-                .claims = claims_.get()},
+                .claims = claims_.get(),
+                .when_added =
+                    [this](const ModelId& model) {
+                      if (live_.get().roles.serves) make_posters(model, services_);
+                    }},
                std::move(scanners)),
-        exports_(live_.get()->export_cache_bytes),
+        exports_(live_.get().export_cache_bytes),
         pages_(web_assets()),
         metrics_(path_templates(public_routes())),
+        visits_(*installation_.visits),
         tokens_(*installation_.catalogue),
         services_{.store = *installation_.store,
                   .catalogue = *installation_.catalogue,
@@ -138,16 +165,18 @@ class Daemon {
                   .uploads = uploads_,
                   .quota = quota_,
                   .collector = collector_,
+                  .scrubber = scrubber_,
                   .webhooks = webhooks_,
                   .exports = exports_,
                   .pages = pages_,
                   .settings = live_,
                   .metrics = metrics_,
+                  .visits = visits_,
                   .log = access_log_,
                   .errors = events_},
-        connections_(connections_within_limit(live_.get()->max_connections)),
-        threads_(live_.get()->threads > 0 ? live_.get()->threads
-                                          : std::max(1u, std::thread::hardware_concurrency())),
+        connections_(connections_within_limit(live_.get().max_connections)),
+        threads_(live_.get().threads > 0 ? live_.get().threads
+                                         : std::max(1u, std::thread::hardware_concurrency())),
         io_(static_cast<int>(threads_)),
         workers_({.threads = threads_,
                   .waiting_threads = Services::kWaitingThreads,
@@ -167,36 +196,54 @@ class Daemon {
           "the data folder is a copy of another daemon's: this daemon gets a new identity "
           "and waits until the leases of the original expire");
     }
-    if (live_.get()->roles.serves) {
-      if (const auto kept = write_quota(live_.get()->data, live_.get()->quota_bytes); !kept)
+    if (live_.get().roles.serves) {
+      if (const auto kept = write_quota(live_.get().data, live_.get().quota_bytes); !kept)
         events_.event(Severity::kWarning, kept.error().message);
-      if (auto bound = listen(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
+      if (auto bound = listen(public_, live_.get().listen, live_.get().port_file, ""); !bound)
         return bound;
     }
     if (auto bound =
-            listen(admin_, live_.get()->admin_listen, live_.get()->admin_port_file, "admin ");
+            listen(admin_, live_.get().admin_listen, live_.get().admin_port_file, "admin ");
         !bound)
       return bound;
-    if (!live_.get()->webhook_hosts.empty())
+    if (!live_.get().webhook_hosts.empty())
       scans_.jobs().when_ended([this](const JobStatus& job) { tell_of(job); });
+    if (!live_.get().purge_urls.empty()) {
+      installation_.catalogue->when_hidden(
+          [this](std::vector<Sha256> chunks) { purge_.forget(std::move(chunks)); });
+    }
     claims_->start(scans_.names());
     return scans_.start();
   }
 
   void run() {
-    if (connections_ < live_.get()->max_connections) {
+    if (connections_ < live_.get().max_connections) {
       events_.event(Severity::kWarning,
                     fmt::format("the limit on open files allows only {} connections; raise it",
                                 connections_));
     }
+    if (others_may_read(live_.get().data)) {
+      events_.event(Severity::kWarning,
+                    fmt::format("every user of the machine can read drafts in the data folder; run "
+                                "chmod o-rwx {}",
+                                live_.get().data.string()));
+    }
     models_.refresh_by([this](std::function<void()> refresh) {
-      asio::post(workers_.executor(Executor::kWorker, ""), std::move(refresh));
+      asio::post(workers_.executor(Executor::kWorker), std::move(refresh));
     });
     wait_for_signal();
     wait_for_reload();
-    if (live_.get()->roles.serves) public_.start();
+    if (live_.get().roles.serves) public_.start();
     admin_.start();
     collector_.start(kCollectEvery);
+    scrubber_.start(live_.get().scrub_rate);
+    // Without requests, too, the files of withdrawn, replaced and removed models are closed.
+    if (live_.get().roles.serves) {
+      model_check_.emplace(kModelCheckEvery, events_,
+                           [this] { static_cast<void>(models_.revision()); });
+    }
+    if (live_.get().roles.serves)
+      visit_flush_.emplace(kVisitFlushEvery, events_, [this] { flush_visits(); });
     services_.ready = true;
     tell_service_manager(ServicePhase::kReady);
     keep_watchdog();
@@ -206,11 +253,16 @@ class Daemon {
     serve_connections();
     for (std::thread& thread : threads)
       thread.join();
+    model_check_.reset();
     scans_.stop();
     collector_.stop();
+    scrubber_.stop();
     webhooks_.stop();
+    purge_.stop();
     workers_.stop();
     workers_.join();
+    visit_flush_.reset();
+    flush_visits();
     claims_->stop();
     for (const auto& dropped :
          {installation_.jobs->drop_leases(lock_.id), installation_.jobs->drop_scanners(lock_.id)}) {
@@ -233,6 +285,11 @@ class Daemon {
     }
   }
 
+  void flush_visits() {
+    if (const auto done = visits_.flush(); !done)
+      events_.event(Severity::kError, done.error().message);
+  }
+
   void tell_of(const JobStatus& job) {
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
     const JobRecord& ended = job.record;
@@ -240,8 +297,8 @@ class Daemon {
       if (const auto kept = installation_.jobs->set_notified(id); !kept)
         events_.event(Severity::kError, kept.error().message);
     };
-    // Another daemon may have newer settings that allow the webhook, and then call it. So this
-    // daemon gives the webhook up only after kUnwanted.
+    // Another daemon may have newer settings that allow the webhook, and may call it. So this
+    // daemon waits for kUnwanted before it gives up on the webhook.
     const bool is_old = now_in_milliseconds() - ended.ended > kUnwanted.count();
     if (!webhooks_.allows(ended.webhook) && is_old) {
       events_.event(Severity::kWarning,
@@ -249,9 +306,11 @@ class Daemon {
                                 origin_of(ended.webhook)));
       return told();
     }
-    webhooks_.call(
-        ended.webhook, job_json(job).dump(-1, ' ', false, kReplace),
-        [this, id = ended.id] { return scans_.jobs().may_notify(id); }, told);
+    webhooks_.call({.url = ended.webhook,
+                    .id = ended.id.to_string(),
+                    .json = job_json(job).dump(-1, ' ', false, kReplace),
+                    .may = [this, id = ended.id] { return scans_.jobs().may_notify(id); },
+                    .done = told});
   }
 
   HttpDependencies http_dependencies() {
@@ -265,24 +324,29 @@ class Daemon {
   HttpOptions public_options() {
     return {.routes = bind(public_routes(), services_),
             .parameters = parameter_patterns(),
+            .answers_to = [this](auto host) { return is_public_host(live_.get(), host); },
+            .trusts_origin = [this](auto origin) { return is_trusted_origin(live_.get(), origin); },
             .is_recorded = true,
+            .shortens_addresses = live_.get().shortens_addresses,
             .max_connections = connections_,
-            .idle_timeout = live_.get()->idle_timeout,
+            .idle_timeout = live_.get().idle_timeout,
             .tls = tls_,
-            .max_connections_per_address = live_.get()->max_connections_per_address > 0
-                                               ? live_.get()->max_connections_per_address
-                                               : SIZE_MAX,
-            .proxies = live_.get()->trusted_proxies,
-            .request_rate = live_.get()->request_rate,
-            .min_rate = live_.get()->min_rate,
-            .answer_memory = live_.get()->answer_memory_bytes};
+            .max_connections_per_address =
+                connections_of(live_.get().max_connections_per_address, connections_),
+            .proxies = live_.get().trusted_proxies,
+            .request_rate = live_.get().request_rate,
+            .min_rate = live_.get().min_rate,
+            .answer_memory = live_.get().answer_memory_bytes};
   }
 
   HttpOptions admin_options() {
     return {.routes = bind(admin_routes(), services_),
+            .answers_to = [this](auto host) { return is_own_host(live_.get(), host); },
+            .is_read_by_pages = false,
             .is_recorded = false,
+            .shortens_addresses = live_.get().shortens_addresses,
             .max_connections = kAdminConnections,
-            .idle_timeout = live_.get()->idle_timeout};
+            .idle_timeout = live_.get().idle_timeout};
   }
 
   Expected<void> listen(HttpServer& server, const Endpoint& endpoint,
@@ -311,7 +375,7 @@ class Daemon {
       }
       // Waits for the next signal first, since the calls below may throw.
       wait_for_reload();
-      signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
+      signal == SIGHUP ? reload() : report_reopened_log();
     });
   }
 
@@ -321,7 +385,7 @@ class Daemon {
     tell_service_manager(ServicePhase::kReloading);
     if (const auto done = try_reload(); !done) {
       events_.event(Severity::kError, "the configuration stays as it was: " + done.error().message);
-      reopen_log(live_.get()->access_log);
+      report_reopened_log();
     }
     tell_service_manager(ServicePhase::kReady);
   }
@@ -331,7 +395,7 @@ class Daemon {
     if (!fresh) return tl::unexpected(fresh.error());
     auto next = vitrine::server::reload(configuration_.line, *fresh);
     if (!next) return tl::unexpected(next.error());
-    if (auto opened = access_log_.reopen(next->line.settings.access_log); !opened) return opened;
+    if (auto opened = reopen_log(next->line.settings); !opened) return opened;
     configuration_.line = std::move(next->line);
     live_.replace(configuration_.line.settings);
     apply_limits();
@@ -343,16 +407,23 @@ class Daemon {
   }
 
   void apply_limits() {
-    const auto now = live_.get();
-    exports_.set_capacity(now->export_cache_bytes);
-    models_.set_capacity(now->model_cache_bytes);
-    public_.set_limits(connections_within_limit(now->max_connections), now->idle_timeout,
-                       now->answer_memory_bytes);
-    admin_.set_limits(kAdminConnections, now->idle_timeout, UINT64_MAX);
+    const Settings& now = live_.get();
+    exports_.set_capacity(now.export_cache_bytes);
+    models_.set_capacity(now.model_cache_bytes);
+    const std::size_t connections = connections_within_limit(now.max_connections);
+    public_.set_limits({.max_connections = connections,
+                        .per_address = connections_of(now.max_connections_per_address, connections),
+                        .idle_timeout = now.idle_timeout,
+                        .answer_memory = now.answer_memory_bytes});
+    admin_.set_limits({.max_connections = kAdminConnections, .idle_timeout = now.idle_timeout});
   }
 
-  void reopen_log(const std::filesystem::path& file) {
-    const auto opened = access_log_.reopen(file);
+  Expected<void> reopen_log(const Settings& settings) {
+    return access_log_.reopen(settings.access_log, settings.access_log_bytes);
+  }
+
+  void report_reopened_log() {
+    const auto opened = reopen_log(live_.get());
     events_.event(opened ? Severity::kInfo : Severity::kError,
                   opened ? "access log reopened" : opened.error().message);
   }
@@ -366,7 +437,7 @@ class Daemon {
     watchdog_.async_wait([this](const boost::system::error_code& error) {
       if (error) return;
       keep_watchdog();
-      asio::post(workers_.executor(Executor::kWorker, ""), [] { tell_alive(); });
+      asio::post(workers_.executor(Executor::kWorker), [] { tell_alive(); });
     });
   }
 
@@ -378,13 +449,13 @@ class Daemon {
     signals_.async_wait([this](const boost::system::error_code& error, int) {
       if (!error) io_.stop();
     });
-    deadline_.expires_after(live_.get()->stop_timeout);
+    deadline_.expires_after(live_.get().stop_timeout);
     deadline_.async_wait([this](const boost::system::error_code& error) {
       if (!error) io_.stop();
     });
     // Stops scans while connections drain, so that laser and motor are switched off soon. Scans
     // resume at the next start.
-    asio::post(workers_.executor(Executor::kDevice, ""), [this] { scans_.stop(); });
+    asio::post(workers_.executor(Executor::kDevice), [this] { scans_.stop(); });
     public_.drain([this] { io_.stop(); });
   }
 
@@ -402,12 +473,15 @@ class Daemon {
   Uploads uploads_;
   Quota quota_;
   Webhooks webhooks_;
+  CachePurge purge_;
   PublishJobs publishing_;
   Collector collector_;
+  Scrubber scrubber_;
   ScanService scans_;
   ExportCache exports_;
   const WebPages pages_;
   Metrics metrics_;
+  VisitCounter visits_;
   Authenticator tokens_;
   Services services_;
   const std::uint32_t connections_;
@@ -421,10 +495,11 @@ class Daemon {
   asio::signal_set reload_signals_;
   asio::steady_timer deadline_;
   asio::steady_timer watchdog_;
+  std::optional<PeriodicTask> model_check_, visit_flush_;
 };
 
 int report(const Error& error) {
-  std::fputs(fmt::format("vitrined: {}\n", error.message).c_str(), stderr);
+  std::fputs(fmt::format("vitrined: {}\n", as_plain_text(error.message)).c_str(), stderr);
   return error.code == ErrorCode::kBadInput ? kExitUsage : kExitFailed;
 }
 
@@ -455,7 +530,7 @@ int serve(Configuration configuration) {
   if (!lock) return report(lock.error());
   auto installation = open_installation(place_of(settings));
   if (!installation) return report(installation.error());
-  auto access_log = Log::open(settings.access_log);
+  auto access_log = Log::open(settings.access_log, settings.access_log_bytes);
   if (!access_log) return report(access_log.error());
   auto claims = std::make_unique<ScannerClaims>(
       *installation->jobs, Log::to_stderr(), Lease{lock->id, kScannerLease}, settings.scan_address);

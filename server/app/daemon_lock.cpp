@@ -31,8 +31,8 @@ std::string whereabouts(const FileDescriptor& file) {
   return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(place.data()), place.size()}));
 }
 
-// Returns the file's content: the daemon's ID and the result of whereabouts() when the file was
-// written, which is empty in files of earlier versions. Returns nullopt if the file has no valid
+// Returns the file's content: the daemon's ID, and the result of whereabouts() at the time of
+// writing. Files of earlier versions contain no result. Returns nullopt if the file has no valid
 // ID.
 std::optional<std::pair<std::string, std::string>> kept_in(const FileDescriptor& file) {
   char text[128] = {};
@@ -72,7 +72,8 @@ Expected<DataFolderLock> lock_data_folder(const std::filesystem::path& folder) {
   const auto kept = kept_in(file);
   const std::string place = whereabouts(file);
   if (kept && kept->second == place) return DataFolderLock{std::move(file), kept->first};
-  // A file with an ID but no place was written by an earlier version and is not a copy.
+  // A file with an ID but no result of whereabouts() was written by an earlier version. It does not
+  // count as a copy.
   const bool is_copy = kept && !kept->second.empty();
   const std::string id = kept && !is_copy ? kept->first : to_string(generate_ulid());
   if (auto written = keep(file, id + ' ' + place); !written)

@@ -8,7 +8,7 @@
 namespace vitrine::server {
 
 std::uint32_t connections_within_limit(std::uint32_t wanted) {
-  // Descriptors kept for 256 models, 64 admin connections and other files.
+  // Number of descriptors reserved for 256 models, 64 admin connections and other files.
   constexpr rlim_t kOthers = 512;
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;

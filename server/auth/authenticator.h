@@ -16,7 +16,7 @@
 namespace vitrine::server {
 
 struct Caller {
-  TokenId token;  // ID of the token, which is not secret
+  TokenId token;  // the token's ID; only the token's text is secret
   Role role = Role::kNone;
   Sha256 hash{};  // SHA-256 of the token's text
 };

@@ -10,8 +10,9 @@
 
 namespace vitrine::server {
 
-// A token bucket for each token or address. A budget grows by `rate` calls per second, up to `rate`
-// * kBurst calls. Tokens and addresses whose salted hashes collide share a budget. Thread-safe.
+// Keeps a budget of calls for each access token or address (token-bucket algorithm). A budget grows
+// by `rate` calls per second, up to `rate` * kBurst calls. Tokens and addresses whose salted hashes
+// collide share a budget. Thread-safe.
 class RateLimit {
  public:
   using Clock = std::chrono::steady_clock;

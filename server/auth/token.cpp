@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kPrefix = "vtr_";
 constexpr std::string_view kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-constexpr std::size_t kLength = 4 + 43;  // "vtr_" and 43 digits of 6 bits for 256 bits
+constexpr std::size_t kLength = 4 + 43;  // "vtr_", and 43 base64url digits for 256 bits
 
 }  // namespace
 

@@ -5,7 +5,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <map>
+#include <string_view>
+#include <vector>
 
 #include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
@@ -13,8 +14,10 @@
 #include "server/backup/tar.h"
 #include "server/catalogue/snapshot.h"
 #include "server/catalogue/sqlite_catalogue.h"
+#include "server/catalogue/sqlite_faults.h"
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
+#include "server/store/scrub.h"
 
 namespace vitrine::server {
 namespace {
@@ -32,7 +35,19 @@ class Archive {
     report.bytes += bytes.size();
     return tar_.add(name, bytes);
   }
+  Expected<void> add(const std::string& name, const std::string& text) {
+    return add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  }
+  // Notes that the installation has lost an object. `state`: "damaged" or "missing".
+  void note_loss(const NamedFile& object, std::string_view state) {
+    lost_[object_path(object.file)] = object.file;
+    report.damaged.push_back(fmt::format("{} of model {} is {}", object_path(object.file),
+                                         object.model.to_string(), state));
+  }
   Expected<void> finish() {
+    if (!lost_.empty()) {
+      if (auto added = add(std::string(kDamagedList), to_text(lost_)); !added) return added;
+    }
     const std::string text = to_text(sums_);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
     if (auto added = tar_.add(std::string(kChecksums), {bytes, text.size()}); !added) return added;
@@ -43,7 +58,7 @@ class Archive {
 
  private:
   TarWriter tar_;
-  Checksums sums_;
+  Checksums sums_, lost_;
 };
 
 // A temporary copy of the catalogue. The destructor removes the copy and SQLite's files beside it.
@@ -58,9 +73,14 @@ struct Snapshot {
   const fs::path file;
 };
 
+struct OpenObject {
+  NamedFile file;
+  std::unique_ptr<Object> object;  // null if it is missing
+};
+
 // Objects open for reading. They stay readable even if the store removes them, so the store's lock
 // is needed only while they are opened.
-using Objects = std::map<Sha256, std::unique_ptr<Object>>;
+using Objects = std::vector<OpenObject>;
 
 void allow_many_files() {
   rlimit limit{};
@@ -69,34 +89,26 @@ void allow_many_files() {
   ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-Expected<void> open_object(const ObjectStore& store, const NamedFile& named, Objects& objects) {
-  if (objects.contains(named.file)) return {};
-  auto object = store.open(named.file);
-  if (!object) return tl::unexpected(object.error());
-  if (*object == nullptr) {
-    return fail(ErrorCode::kState, fmt::format("the file of model {} is missing; publish it again",
-                                               named.model.to_string()));
-  }
-  objects.emplace(named.file, std::move(*object));
-  return {};
-}
-
-Expected<Objects> open_objects(const ObjectStore& store, const fs::path& snapshot,
+Expected<Objects> open_objects(const FileStore& store, const fs::path& snapshot,
                                BackupReport& report) {
   const auto catalogue = open_sqlite_catalogue(snapshot);
   if (!catalogue) return tl::unexpected(catalogue.error());
-  const auto files = (*catalogue)->files();
+  const auto all = (*catalogue)->files();
+  if (!all) return tl::unexpected(all.error());
+  report.models = models_in(*all);
+  const auto files = distinct_files(**catalogue);
   if (!files) return tl::unexpected(files.error());
   Objects objects;
   for (const NamedFile& file : *files) {
-    if (auto opened = open_object(store, file, objects); !opened)
-      return tl::unexpected(opened.error());
+    auto object = store.open_unchecked(file.file);
+    if (!object) return tl::unexpected(object.error());
+    objects.push_back({file, std::move(*object)});
   }
-  report.models = models_in(*files);
   return objects;
 }
 
-// Copies the catalogue to `snapshot` and opens the objects that it names, all as of one moment.
+// Copies the catalogue to `snapshot`, and opens the objects that the copy names. Holds the store's
+// lock, so that no object is removed in between.
 Expected<Objects> freeze(const fs::path& data, const fs::path& snapshot, BackupReport& report) {
   auto store = FileStore::open(data / "objects");
   if (!store) return tl::unexpected(store.error());
@@ -107,30 +119,36 @@ Expected<Objects> freeze(const fs::path& data, const fs::path& snapshot, BackupR
   return open_objects(*store, snapshot, report);
 }
 
-Expected<void> add_object(Archive& archive, const Sha256& name, const Object& object) {
-  const auto bytes = object.read(0, object.size());
-  if (!bytes) return tl::unexpected(bytes.error());
-  const std::string hex = to_hex(name);
-  if (sha256(*bytes) != name) {
-    return fail(ErrorCode::kState,
-                fmt::format("object {} is damaged; publish its model again", hex));
+// Adds an object, or notes that it is missing, cannot be read or does not have its hash.
+Expected<void> add_object(Archive& archive, const OpenObject& open) {
+  if (open.object == nullptr) {
+    archive.note_loss(open.file, "missing");
+    return {};
   }
-  return archive.add(fmt::format("objects/{}/{}/{}", hex.substr(0, 2), hex.substr(2, 2), hex),
-                     *bytes);
+  const auto bytes = open.object->read(0, open.object->size());
+  if (!bytes || sha256(*bytes) != open.file.file) {
+    archive.note_loss(open.file, "damaged");
+    return {};
+  }
+  return archive.add(object_path(open.file.file), *bytes);
 }
 
-// Adds the files of all scans. Leaves out files whose names begin with a dot, which are still being
-// written.
+// Adds the files of all scans. Leaves out files and folders whose names begin with a dot, which are
+// being written or deleted.
 Expected<void> add_scans(Archive& archive, const fs::path& data) {
   std::error_code error;
   fs::recursive_directory_iterator at(data / "scans", error);
   for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-    const bool is_file = fs::is_regular_file(at->symlink_status());
-    if (!is_file || at->path().filename().string().starts_with('.')) continue;
+    const bool is_hidden = at->path().filename().string().starts_with('.');
+    if (is_hidden) at.disable_recursion_pending();
+    if (is_hidden || !fs::is_regular_file(at->symlink_status())) continue;
     const auto bytes = read_file(at->path(), TarReader::kMaxFile);
     if (!bytes && !fs::exists(at->path())) continue;  // skips a file that was removed meanwhile
-    if (!bytes) return tl::unexpected(bytes.error());
     const std::string name = at->path().lexically_relative(data).generic_string();
+    if (!bytes) {
+      archive.report.damaged.push_back(fmt::format("{} cannot be read", name));
+      continue;
+    }
     if (auto added = archive.add(name, *bytes); !added) return added;
   }
   if (!error || error == std::errc::no_such_file_or_directory) return {};
@@ -148,11 +166,14 @@ Expected<BackupReport> back_up(const fs::path& data, const fs::path& file) {
   const Snapshot snapshot(folder_of(file) / fmt::format(".catalogue.{}.part", ::getpid()));
   const auto objects = freeze(data, snapshot.file, archive.report);
   if (!objects) return tl::unexpected(objects.error());
-  for (const auto& [name, object] : *objects) {
-    if (auto added = add_object(archive, name, *object); !added)
-      return tl::unexpected(added.error());
+  for (const OpenObject& object : *objects) {
+    if (auto added = add_object(archive, object); !added) return tl::unexpected(added.error());
   }
   if (auto added = add_scans(archive, data); !added) return tl::unexpected(added.error());
+  const auto faults = sqlite::find_faults(snapshot.file);
+  if (!faults) return tl::unexpected(faults.error());
+  for (const std::string& fault : *faults)
+    archive.report.damaged.push_back(fmt::format("{}: {}", kCatalogueFile, fault));
   const auto catalogue = read_file(snapshot.file, TarReader::kMaxFile);
   if (!catalogue) return tl::unexpected(catalogue.error());
   if (auto added = archive.add(kCatalogueFile, *catalogue); !added)

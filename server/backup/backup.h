@@ -2,11 +2,14 @@
 // Backs up an installation to one file, and restores an installation from such a file. The file is
 // a plain tar archive with the layout of a data folder. Objects and scans come first, then the
 // catalogue, then SHA256SUMS, a list of all files for sha256sum(1). A truncated file therefore has
-// no complete list.
+// no complete list. If objects of the installation are damaged or missing, the archive lacks them
+// and has the file DAMAGED, a list of them in the format of SHA256SUMS.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "codec/core/expected.h"
 
@@ -14,18 +17,21 @@ namespace vitrine::server {
 
 struct BackupReport {
   std::uint64_t models = 0, files = 0, bytes = 0;  // bytes: total size of the files
+  // Files of the installation that the backup lacks, and faults of the catalogue, each in one line.
+  std::vector<std::string> damaged;
 };
 
 // Backs up the installation in `data` to `file`, which is written completely or not at all. A
 // daemon may serve the installation during the backup. The backup shows the state at one moment,
 // except for scans in progress, which it stores as a crash of the daemon would leave them. Reads
-// every object and checks its hash. kIo if a file cannot be read or written, kState if the
-// installation is damaged.
+// every object and checks its hash. Leaves out damaged files and lists them in the report. kIo if
+// the catalogue cannot be read or the backup cannot be written.
 Expected<BackupReport> back_up(const std::filesystem::path& data,
                                const std::filesystem::path& file);
 
 // Restores a backup into `data`, which must be absent or empty, so that nothing is overwritten.
-// Checks all hashes and restores the catalogue last. On failure, `data` is left as it was.
+// Checks all hashes and restores the catalogue last. The report lists the objects that were damaged
+// when the backup was made. On failure, `data` is left as it was.
 // kBadInput if the file is not a backup or is damaged, kIo if a file cannot be read or written.
 Expected<BackupReport> restore(const std::filesystem::path& file,
                                const std::filesystem::path& data);

@@ -13,6 +13,11 @@ constexpr std::size_t kDigits = 64;
 
 }  // namespace
 
+std::string object_path(const Sha256& name) {
+  const std::string hex = to_hex(name);
+  return fmt::format("objects/{}/{}/{}", hex.substr(0, 2), hex.substr(2, 2), hex);
+}
+
 std::string to_text(const Checksums& sums) {
   std::string text;
   for (const auto& [name, hash] : sums)

@@ -21,7 +21,7 @@ using MigrationProgress = std::function<void(std::size_t done, std::size_t all)>
 // and copies the whole catalogue in one transaction. The destination shows no model before that.
 // After an interruption, call it again: files that exist are checked and not sent again. Copies
 // neither uploads nor the data of scans, which stay in their data folder. kState if the destination
-// contains other data, kBadInput if a file is damaged, kIo if a store or a catalogue fails.
+// contains other data or a file is damaged, kIo if a store or a catalogue fails.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress);
 

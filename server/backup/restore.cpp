@@ -8,6 +8,7 @@
 #include "server/backup/backup.h"
 #include "server/backup/checksums.h"
 #include "server/backup/tar.h"
+#include "server/catalogue/private_file.h"
 #include "server/catalogue/sqlite_catalogue.h"
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
@@ -33,7 +34,7 @@ Expected<void> check_empty(const fs::path& folder) {
                                           folder.string(), error.message()));
 }
 
-// Whether `path` is relative and no part of it is empty or starts with a dot, so that it cannot
+// Whether `path` is relative, and no part of it is empty or starts with a dot. Such a path cannot
 // lead out of its folder.
 bool is_plain_path(std::string_view path) {
   constexpr std::size_t kLongest = 1024;
@@ -52,7 +53,7 @@ class Restoration {
 
   Expected<BackupReport> run() {
     std::error_code error;  // not checked, since unpack() then fails as well
-    const bool made = fs::create_directories(data_, error);
+    const bool made = create_private_folder(data_, error);
     auto done = unpack();
     if (!done) take_back(made);
     return done;
@@ -93,10 +94,23 @@ class Restoration {
     found_[entry.name] = sha256(entry.bytes);
     report_.files += 1;
     report_.bytes += entry.bytes.size();
-    if (entry.name == kCatalogueFile) return write_file_atomically(unnamed(), entry.bytes);
+    if (entry.name == kDamagedList) {
+      lost_ = parse_checksums(entry.bytes);
+      return lost_ ? Expected<void>() : damaged(kDamagedList, "is malformed");
+    }
+    if (entry.name == kCatalogueFile) return take_catalogue(entry);
     if (entry.name.starts_with(kObjects)) return take_object(entry, store);
     if (entry.name.starts_with(kScans) && is_plain_path(entry.name)) return take_scan(entry);
     return damaged(entry.name, "does not belong in a backup");
+  }
+
+  // Only the owner may read the catalogue, because it holds hashes of tokens, and drafts.
+  Expected<void> take_catalogue(const TarEntry& entry) {
+    if (auto written = write_file_atomically(unnamed(), entry.bytes); !written) return written;
+    std::error_code error;
+    fs::permissions(unnamed(), fs::perms::owner_read | fs::perms::owner_write, error);
+    return error ? damaged(kCatalogueFile, "cannot be protected: " + error.message())
+                 : Expected<void>();
   }
 
   Expected<void> take_object(const TarEntry& entry, ObjectStore& store) {
@@ -128,16 +142,22 @@ class Restoration {
     return {};
   }
 
-  // Checks that the store has every file that the catalogue names.
+  // Checks that the store has every file that the catalogue names, except those that were lost
+  // before the backup.
   Expected<void> check_models(const ObjectStore& store) {
     const auto catalogue = open_sqlite_catalogue(unnamed());
     if (!catalogue) return tl::unexpected(catalogue.error());
     const auto files = (*catalogue)->files();
     if (!files) return tl::unexpected(files.error());
     for (const NamedFile& named : *files) {
-      const auto object = store.open(named.file);
-      if (!object) return tl::unexpected(object.error());
-      if (!*object) return damaged("the file of model " + named.model.to_string(), "is missing");
+      const auto size = store.size_of(named.file);
+      if (!size) return tl::unexpected(size.error());
+      if (*size) continue;
+      const std::string path = object_path(named.file);
+      if (!lost_ || !lost_->contains(path))
+        return damaged("the file of model " + named.model.to_string(), "is missing");
+      report_.damaged.push_back(
+          fmt::format("{} of model {} was damaged", path, named.model.to_string()));
     }
     report_.models = models_in(*files);
     return {};
@@ -159,6 +179,7 @@ class Restoration {
   BackupReport report_;
   Checksums found_;
   std::optional<Checksums> stated_;
+  std::optional<Checksums> lost_;  // nullopt if the backup has all files
 };
 
 }  // namespace

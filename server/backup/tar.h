@@ -43,7 +43,7 @@ class TarWriter {
 };
 
 struct TarEntry {
-  std::string name;  // as stored in the archive; may be hostile
+  std::string name;  // path as stored in the archive; may be hostile
   std::vector<std::uint8_t> bytes;
 };
 

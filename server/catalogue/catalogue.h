@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -25,11 +26,20 @@ inline constexpr std::string_view kDublinCore[] = {
 
 enum class ModelState : std::uint8_t { kDraft = 0, kPublished = 1 };
 
+// The pictures of a texture in a .pmesh file. All numbers are 0 if the model has no texture.
+struct TextureSummary {
+  std::uint32_t count = 0;         // number of kinds of pictures: base colours, normals, ...
+  std::uint32_t largest_side = 0;  // in pixels
+  std::uint64_t bytes = 0;         // of all pictures, in all sizes
+  bool operator==(const TextureSummary&) const = default;
+};
+
 // The file that visitors receive if the full resolution of a model is not public.
 struct PublicPart {
   std::uint32_t max_level = 0;
   Sha256 file{};
   std::uint64_t file_bytes = 0, head_bytes = 0, faces = 0, vertices = 0;
+  TextureSummary textures = {};
 };
 
 struct ModelRecord {
@@ -44,8 +54,9 @@ struct ModelRecord {
   std::string unit;                         // unit of the coordinates; empty if unknown
   Sha256 file{};                            // SHA-256 of the .pmesh file
   std::uint64_t file_bytes = 0;
-  std::uint64_t head_bytes = 0;  // size of the header and base mesh at the file's start
+  std::uint64_t head_bytes = 0;  // size of the model's head; see Manifest::head_bytes()
   std::uint64_t faces = 0, vertices = 0;
+  TextureSummary textures = {};
   std::optional<double> accuracy = {};         // accuracy of the scan, in `unit`
   std::optional<PublicPart> public_part = {};  // nullopt: the whole model is public
   std::uint64_t version = 0;                   // increases with each change
@@ -66,7 +77,7 @@ inline std::size_t models_in(std::span<const NamedFile> files) {
   return count;
 }
 
-// The position of a chunk, or of a base mesh, in a stored file.
+// The position of a block in a stored file: of a chunk, a base mesh, an atlas or a picture.
 struct ChunkPlace {
   Sha256 chunk{};
   std::uint64_t offset = 0, length = 0;
@@ -102,7 +113,7 @@ struct ModelPage {
 };
 
 // Safe to use from several threads at once, and by several processes on the same data. Errors: kIo
-// if the database fails, kLimit if the disk is full, kState as each function states.
+// if the database fails, kLimit if the disk is full, kState in the cases that each function lists.
 class Catalogue {
  public:
   virtual ~Catalogue() = default;
@@ -159,6 +170,12 @@ class Catalogue {
   // Returns a number that changes whenever a process changes models or tokens. The call is cheap.
   // Data cached from the catalogue is valid as long as the number stays the same.
   virtual Expected<std::uint64_t> revision() = 0;
+
+  // Sets the function to call after this object has withdrawn or removed a published model, or has
+  // replaced its chunks. The function receives the chunks that the model had. Other published
+  // models may still have some of these chunks. Call this before other threads use the catalogue.
+  using ChunksHidden = std::function<void(std::vector<Sha256> chunks)>;
+  virtual void when_hidden(ChunksHidden hidden) = 0;
 };
 
 }  // namespace vitrine::server

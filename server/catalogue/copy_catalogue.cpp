@@ -20,14 +20,16 @@ constexpr Table kTables[] = {
     {"model", "id",
      "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
      "faces, vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes, "
-     "public_head_bytes, public_faces, public_vertices"},
+     "public_head_bytes, public_faces, public_vertices, texture_count, texture_side, "
+     "texture_bytes, public_texture_count, public_texture_side, public_texture_bytes"},
     {"chunk", "sha256, model", "sha256, model, \"offset\", length"},
+    {"visit", "model, day", "model, day, visits, seconds, levels, complete"},
     {"job", "id",
      "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "
-     "webhook, attempts, told, fence"},
+     "webhook, attempts, told, fence, repairs, owner"},
     {"scan", "id",
      "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
-     "created, empty_rows, saturated_rows, doubled_rows, turn"},
+     "created, empty_rows, saturated_rows, doubled_rows, turn, built"},
     {"idempotency", "key", "key, request, job"},
     {"token", "id", "id, role, hash, label, created, revoked"}};
 

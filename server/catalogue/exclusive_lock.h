@@ -11,8 +11,8 @@ class ExclusiveLock {
  public:
   virtual ~ExclusiveLock() = default;
 
-  // Succeeds if the lock is still held. kIo if it was lost and another daemon may hold it; the
-  // caller must then stop its work.
+  // Succeeds if the lock is still held. kIo if the lock was lost. The caller must then stop its
+  // work, because another daemon may hold the lock.
   virtual Expected<void> check() const = 0;
 };
 

@@ -50,18 +50,25 @@ struct JobRecord {
   std::string parameters;        // JSON, read by the task that runs the job
   // Times in milliseconds since 1970, UTC. `ended` is 0 until the job ends.
   std::int64_t created = 0, ended = 0;
-  std::string webhook = {};    // URL that is called when the job ends; empty: none
-  std::uint32_t attempts = 0;  // times that the job started since its task last returned
+  std::string webhook = {};  // URL that is called when the job ends; empty: none
+  // Number of starts since a run of the job last ended properly. More than 1 if a daemon died
+  // during the job.
+  std::uint32_t attempts = 0;
   // Increases each time a daemon claims the job, or a client cancels it while no daemon works on
   // it. A write with an earlier value is refused.
   std::uint64_t fence = 0;
+  // The build's repairs and losses, one line for each kind; empty if there were none.
+  std::string repairs = {};
+  // The owner, who shares the builders with the other owners: the ID of the token that uploaded the
+  // file. Empty for jobs without an upload.
+  std::string owner = {};
 
   bool operator==(const JobRecord&) const = default;
 };
 
 // The quality of the camera's pictures of a scan, as shares of their rows from 0 to 1. `empty` is
 // the share of all rows that show no laser stripe. `saturated` and `doubled` are shares of the rows
-// that show a stripe: those that are saturated, and those that show two stripes.
+// with a stripe: the saturated rows, and the rows with two stripes.
 struct ScannedRows {
   double empty = 0, saturated = 0, doubled = 0;
 
@@ -86,15 +93,19 @@ struct ScanEntry {
   // the scan since, and the steps in the folder cannot be used. Empty if an earlier version of
   // Vitrine began the scan.
   std::string revolution = {};
+  // The hash of the geometry that was built from the scan as `model` (geometry_hash()). nullopt:
+  // not known. Then clients without a token do not see the scan, because `model` may show another
+  // object by now.
+  std::optional<Sha256> built = {};
 
   bool operator==(const ScanEntry&) const = default;
 };
 
-// The right of a running job to change a model or a scan. It ends when another daemon claims the
-// job.
+// The right of a running job to change a model or a scan. This right ends when another daemon
+// claims the job.
 struct JobClaim {
   JobId job;
-  std::uint64_t fence = 0;  // JobRecord::fence
+  std::uint64_t fence = 0;  // JobRecord::fence of the claimed job
 };
 
 // The idempotency key of a request. A request with a key takes effect only once, even if it is sent
@@ -131,7 +142,7 @@ struct ScannerDriver {
 };
 
 // Safe to use from several threads at once, and by several processes on the same data. Errors: kIo
-// if the database fails, kLimit if the disk is full, kState as each function states.
+// if the database fails, kLimit if the disk is full, kState in the cases that each function lists.
 class JobCatalogue {
  public:
   virtual ~JobCatalogue() = default;
@@ -142,9 +153,9 @@ class JobCatalogue {
   virtual Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                              const std::optional<IdempotencyKey>& key) = 0;
 
-  // Replace the record of a job, or of a scan that the job `by` measures. The lease of a job ends
-  // unless the new state is kRunning. kState if the record does not exist, or if another daemon has
-  // claimed or ended the job since it was read.
+  // The two functions update() replace the record of a job, or of a scan that the job `by`
+  // measures. The lease of a job ends unless the new state is kRunning. kState if the record does
+  // not exist, or if another daemon has claimed or ended the job since it was read.
   virtual Expected<void> update(const JobRecord& job) = 0;
   virtual Expected<void> update(const ScanEntry& scan, const JobClaim& by) = 0;
 
@@ -152,17 +163,19 @@ class JobCatalogue {
   // nullopt unless the job is queued, or is running with an expired lease. A cancellation that was
   // requested before stays requested.
   virtual Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) = 0;
-  // Returns the oldest jobs of these kinds that can be claimed, at most `limit`. Includes jobs
-  // whose lease has expired only if `overdue` is true.
+  // Returns jobs of these kinds that can be claimed, at most `limit`. Owners take turns: an owner
+  // with fewer running and returned jobs comes first, then the older job. The jobs of each scanner
+  // count separately. Includes jobs whose lease has expired only if `overdue` is true.
   virtual Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
                                                         std::uint32_t limit, bool overdue) = 0;
   // Renews the lease of a job and stores its stage and progress. Returns true if a cancellation was
   // requested. kState if another daemon has claimed or ended the job; the caller must then abandon
   // the job.
   virtual Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) = 0;
-  // Cancels a job. If no daemon works on the job, ends it at time `now`. Otherwise the daemon that
-  // works on it receives the request when it renews its lease. Returns the changed job. kState if
-  // the job does not exist or has ended.
+  // Cancels a job. If no daemon works on the job, ends the job at time `now`. Its state is then
+  // kCancelled, or kDone if a daemon had stored the job's model before it died. If a daemon works
+  // on the job, that daemon receives the request when it renews its lease. Returns the changed job.
+  // kState if the job does not exist or has ended.
   virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
   // Ends the leases of all jobs of `holder`, a daemon that no longer works on them.
   virtual Expected<void> drop_leases(const std::string& holder) = 0;
@@ -207,9 +220,10 @@ class JobCatalogue {
   };
   virtual Expected<std::optional<Earlier>> find_key(const std::string& key) = 0;
 
-  // Removes, in one transaction, the keys of ended jobs that were added before `keys_before` and
-  // the jobs that ended before `jobs_before`, both in milliseconds since 1970. Keeps jobs that have
-  // not ended and jobs that a scan or a key refers to. Returns the number of jobs removed.
+  // Removes old keys and jobs in one transaction: the keys of ended jobs that were added before
+  // `keys_before`, and the jobs that ended before `jobs_before`. Both times are in milliseconds
+  // since 1970. Keeps jobs that have not ended and jobs that a scan or a key refers to. Returns the
+  // number of jobs removed.
   virtual Expected<std::size_t> forget(std::int64_t keys_before, std::int64_t jobs_before) = 0;
 };
 

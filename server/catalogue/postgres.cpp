@@ -216,7 +216,8 @@ PostgresConnection::PostgresConnection(const std::string& url) {
 bool PostgresConnection::is_alive() {
   if (hangs_ || PQstatus(handle()) != CONNECTION_OK) return false;
   pollfd socket{PQsocket(handle()), POLLIN, 0};
-  // Between statements, the server only sends data when it closes the connection.
+  // Between statements, the server sends data only when it closes the connection. So a readable
+  // socket means a closed connection.
   return ::poll(&socket, 1, 0) == 0;
 }
 

@@ -5,8 +5,8 @@ namespace vitrine::server::postgres {
 namespace {
 
 // The schema changes, numbered independently of SQLite's. The first step creates the tables that
-// SQLite has after its first six steps, and the revision. The revision counts changes to models and
-// tokens, not the progress of jobs.
+// SQLite has after its first six steps, and the revision number. The revision counts changes to
+// models and tokens, not the progress of jobs.
 constexpr const char* kSteps[] = {
     R"sql(
 CREATE TABLE model (
@@ -72,6 +72,32 @@ CREATE TABLE scanner (
 )sql",
     R"sql(
 ALTER TABLE scan ADD COLUMN turn TEXT NOT NULL DEFAULT '';
+)sql",
+    R"sql(
+ALTER TABLE scan ADD COLUMN built BYTEA;
+)sql",
+    R"sql(
+ALTER TABLE job ADD COLUMN repairs TEXT NOT NULL DEFAULT '';
+)sql",
+    R"sql(
+ALTER TABLE model ADD COLUMN texture_count BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN texture_side BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN texture_bytes BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN public_texture_count BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN public_texture_side BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN public_texture_bytes BIGINT NOT NULL DEFAULT 0;
+)sql",
+    R"sql(
+ALTER TABLE job ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+)sql",
+    R"sql(
+CREATE TABLE visit (
+  model BYTEA NOT NULL REFERENCES model(id) ON DELETE CASCADE, day BIGINT NOT NULL,
+  visits BIGINT NOT NULL, seconds BIGINT NOT NULL, levels BIGINT NOT NULL,
+  complete BIGINT NOT NULL,
+  PRIMARY KEY (model, day)
+);
+CREATE INDEX visit_of_day ON visit(day);
 )sql",
 };
 constexpr std::int64_t kSince = 1;

@@ -29,8 +29,9 @@ void apply(DatabaseConnection& connection, std::span<const char* const> steps) {
   }
 }
 
-// Tables have versions, and each program is made for one of them. Returns the version of the oldest
-// programs that can use tables of version `version`, or nullopt if none is recorded.
+// Returns the version of the oldest programs that can still use tables of version `version`, or
+// nullopt if the database records none. A program's version is that of the tables for which it was
+// made.
 std::optional<std::int64_t> compatible_since(DatabaseConnection& connection, std::int64_t version) {
   const ScopedStatement row(connection.prepare("SELECT since FROM compatible WHERE version = ?"));
   if (!row->bind(version).step()) return std::nullopt;

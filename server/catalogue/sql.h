@@ -28,6 +28,19 @@ inline Unexpected refused(const std::string& what, const Failure& failure) {
   return fail(failure.code, what + ": " + failure.what() + "; " + failure.advice);
 }
 
+// The next step if a catalogue is damaged.
+inline constexpr const char* kRestore =
+    "run 'vitrine doctor --scrub', or restore a backup with 'vitrine restore'";
+
+// Returns the value of an enumeration whose values are 0 to `last`. Throws a Failure if `value` is
+// none of them, because the row is damaged.
+template <class Enumeration>
+Enumeration checked(std::int64_t value, Enumeration last) {
+  if (value >= 0 && value <= static_cast<std::int64_t>(last))
+    return static_cast<Enumeration>(value);
+  throw Failure("a row is damaged: it has an unknown value", ErrorCode::kIo, kRestore);
+}
+
 // A prepared statement, which can run many times. For each run: bind the parameters, call step()
 // until it returns false, then call reset().
 class Statement {
@@ -142,8 +155,8 @@ auto with_connection(Database& database, Action action) -> decltype(action(*data
 struct Migrations {
   std::span<const char* const> steps;
   // Programs made for tables of this version or a later one can use the newest tables, so that old
-  // and new daemons may run side by side. Raise it with each step that does more than add columns
-  // with defaults.
+  // and new daemons may run side by side. Raise this number with each step that does more than add
+  // columns with defaults.
   std::int64_t since;
 };
 

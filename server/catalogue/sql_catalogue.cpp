@@ -18,7 +18,8 @@ using sql::Transaction;
 constexpr std::string_view kColumns =
     "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
     "faces, vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes, "
-    "public_head_bytes, public_faces, public_vertices";
+    "public_head_bytes, public_faces, public_vertices, texture_count, texture_side, texture_bytes, "
+    "public_texture_count, public_texture_side, public_texture_bytes";
 
 std::uint64_t count(const Statement& row, int column) {
   return static_cast<std::uint64_t>(row.integer(column));
@@ -34,6 +35,13 @@ std::map<std::string, std::string> read_more(const std::string& text) {
   return more;
 }
 
+// Reads a summary from three columns.
+TextureSummary read_textures(const Statement& row, int first) {
+  return {.count = static_cast<std::uint32_t>(row.integer(first)),
+          .largest_side = static_cast<std::uint32_t>(row.integer(first + 1)),
+          .bytes = count(row, first + 2)};
+}
+
 std::optional<PublicPart> read_public_part(const Statement& row) {
   if (row.is_null(16)) return std::nullopt;
   return PublicPart{.max_level = static_cast<std::uint32_t>(row.integer(16)),
@@ -41,7 +49,8 @@ std::optional<PublicPart> read_public_part(const Statement& row) {
                     .file_bytes = count(row, 18),
                     .head_bytes = count(row, 19),
                     .faces = count(row, 20),
-                    .vertices = count(row, 21)};
+                    .vertices = count(row, 21),
+                    .textures = read_textures(row, 25)};
 }
 
 ModelRecord read_model(const Statement& row) {
@@ -63,6 +72,7 @@ ModelRecord read_model(const Statement& row) {
   if (!row.is_null(14)) model.accuracy = row.real(14);
   model.version = count(row, 15);
   model.public_part = read_public_part(row);
+  model.textures = read_textures(row, 22);
   return model;
 }
 
@@ -84,6 +94,11 @@ void bind_public_part(Statement& row, const std::optional<PublicPart>& part) {
   row.bind(number(part->head_bytes)).bind(number(part->faces)).bind(number(part->vertices));
 }
 
+void bind_textures(Statement& row, const TextureSummary& textures) {
+  row.bind(std::int64_t{textures.count}).bind(std::int64_t{textures.largest_side});
+  row.bind(number(textures.bytes));
+}
+
 void bind_model(Statement& row, const ModelRecord& m) {
   row.bind(m.id.bytes()).bind(static_cast<std::int64_t>(m.state)).bind(m.created);
   row.bind(m.title).bind(m.creator).bind(m.rights).bind(m.licence).bind(m.unit).bind(m.file);
@@ -96,11 +111,13 @@ void bind_model(Statement& row, const ModelRecord& m) {
   }
   row.bind(number(m.version));
   bind_public_part(row, m.public_part);
+  bind_textures(row, m.textures);
+  bind_textures(row, m.public_part ? m.public_part->textures : TextureSummary());
 }
 
 TokenRecord read_token(const Statement& row) {
   return {.id = TokenId::from_bytes(row.blob<16>(0)),
-          .role = static_cast<Role>(row.integer(1)),
+          .role = sql::checked(row.integer(1), Role::kAdmin),
           .hash = row.blob<32>(2),
           .label = row.text(3),
           .created = row.integer(4)};
@@ -140,7 +157,7 @@ std::string select_models(std::string_view which) {
 }
 
 const std::string kInsertModel = fmt::format(
-    "INSERT INTO model({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
+    "INSERT INTO model({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
     "ON CONFLICT DO NOTHING RETURNING 1",
     kColumns);
 const std::string kInsertChunk =
@@ -152,7 +169,9 @@ const std::string kUpdateModel =
     "licence = ?7, unit = ?8, file = ?9, file_bytes = ?10, head_bytes = ?11, faces = ?12, "
     "vertices = ?13, more = ?14, accuracy = ?15, version = version + 1, "
     "public_max_level = ?17, public_file = ?18, public_file_bytes = ?19, "
-    "public_head_bytes = ?20, public_faces = ?21, public_vertices = ?22 "
+    "public_head_bytes = ?20, public_faces = ?21, public_vertices = ?22, "
+    "texture_count = ?23, texture_side = ?24, texture_bytes = ?25, public_texture_count = ?26, "
+    "public_texture_side = ?27, public_texture_bytes = ?28 "
     "WHERE id = ?1 AND version = ?16 RETURNING 1";
 const std::string kHoldJob =
     "UPDATE job SET model = ?3 WHERE id = ?1 AND fence = ?2 AND state = 1 RETURNING 1";
@@ -169,6 +188,8 @@ const std::string kFindSame = select_models(
 const std::string kFindChunk =
     "SELECT model, \"offset\", length FROM chunk JOIN model ON model.id = chunk.model "
     "WHERE sha256 = ? AND state = 1 LIMIT 1";
+const std::string kPublicChunks =
+    "SELECT sha256 FROM chunk JOIN model ON model.id = chunk.model WHERE model = ? AND state = 1";
 const std::string kInsertToken =
     "INSERT INTO token(id, role, hash, label, created) VALUES (?,?,?,?,?) "
     "ON CONFLICT DO NOTHING RETURNING 1";
@@ -237,6 +258,14 @@ ModelPage search_in(DatabaseConnection& connection, const ModelQuery& query) {
   return page;
 }
 
+std::vector<Sha256> public_chunks(DatabaseConnection& connection, const ModelId& model) {
+  std::vector<Sha256> chunks;
+  const ScopedStatement rows(connection.prepare(kPublicChunks));
+  for (rows->bind(model.bytes()); rows->step();)
+    chunks.push_back(rows->blob<32>(0));
+  return chunks;
+}
+
 class SqlCatalogue final : public Catalogue {
  public:
   explicit SqlCatalogue(std::shared_ptr<sql::Database> database) : database_(std::move(database)) {}
@@ -259,7 +288,8 @@ class SqlCatalogue final : public Catalogue {
   }
 
   Expected<void> set_state(const ModelId& id, ModelState state) override {
-    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+    const bool hides = state == ModelState::kDraft;
+    return change(id, hides, [&](DatabaseConnection& connection) -> Expected<void> {
       const ScopedStatement row(connection.prepare(kUpdateState));
       if (row->bind(id.bytes()).bind(static_cast<std::int64_t>(state)).any()) return {};
       return fail(
@@ -270,7 +300,8 @@ class SqlCatalogue final : public Catalogue {
 
   Expected<void> update(const ModelRecord& model, std::optional<std::span<const ChunkPlace>> chunks,
                         const std::optional<JobClaim>& by) override {
-    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+    const bool hides = chunks || model.state == ModelState::kDraft;
+    return change(model.id, hides, [&](DatabaseConnection& connection) -> Expected<void> {
       Transaction transaction(connection);
       if (auto held = hold_job(connection, by, model.id); !held) return held;
       const ScopedStatement row(connection.prepare(kUpdateModel));
@@ -286,9 +317,9 @@ class SqlCatalogue final : public Catalogue {
     });
   }
 
-  // The foreign key of the chunks removes them with the model.
+  // The database also removes the model's chunks, because of their foreign key.
   Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
-    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+    return change(id, true, [&](DatabaseConnection& connection) -> Expected<void> {
       const ScopedStatement row(connection.prepare(kRemoveModel));
       row->bind(id.bytes());
       if (version) row->bind(number(*version));
@@ -387,8 +418,25 @@ class SqlCatalogue final : public Catalogue {
                                 });
   }
 
+  void when_hidden(ChunksHidden hidden) override { hidden_ = std::move(hidden); }
+
  private:
+  // Runs `action` on a connection. If it succeeds and `hides` is true, calls the function set by
+  // when_hidden() with the chunks that the model had. Releases the connection before that call.
+  template <class Action>
+  Expected<void> change(const ModelId& id, bool hides, const Action& action) {
+    std::vector<Sha256> chunks;
+    const auto run = [&](DatabaseConnection& connection) -> Expected<void> {
+      if (hides && hidden_) chunks = public_chunks(connection, id);
+      return action(connection);
+    };
+    auto done = sql::with_connection(*database_, run);
+    if (done && !chunks.empty()) hidden_(std::move(chunks));
+    return done;
+  }
+
   const std::shared_ptr<sql::Database> database_;
+  ChunksHidden hidden_;
 };
 
 }  // namespace

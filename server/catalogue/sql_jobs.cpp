@@ -18,10 +18,10 @@ using sql::Transaction;
 
 constexpr std::string_view kJobColumns =
     "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "
-    "webhook, attempts, fence";
+    "webhook, attempts, fence, repairs, owner";
 constexpr std::string_view kScanColumns =
     "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
-    "created, empty_rows, saturated_rows, doubled_rows, turn";
+    "created, empty_rows, saturated_rows, doubled_rows, turn, built";
 
 template <class Tag>
 void bind_id(Statement& row, const std::optional<Id<Tag>>& id) {
@@ -48,7 +48,7 @@ Statement& bind_record(Statement& row, const JobRecord& job) {
   bind_id(row, job.model);
   row.bind(job.stage).bind_real(job.progress).bind(job.error).bind(job.parameters);
   row.bind(job.created).bind(job.ended).bind(job.webhook).bind(number(job.attempts));
-  return row.bind(number(job.fence));
+  return row.bind(number(job.fence)).bind(job.repairs).bind(job.owner);
 }
 
 Statement& bind_record(Statement& row, const ScanEntry& scan) {
@@ -62,13 +62,14 @@ Statement& bind_record(Statement& row, const ScanEntry& scan) {
   } else {
     row.bind_null().bind_null().bind_null();
   }
-  return row.bind(scan.revolution);
+  row.bind(scan.revolution);
+  return scan.built ? row.bind(*scan.built) : row.bind_null();
 }
 
 void read(const Statement& row, JobRecord& job) {
   job.id = JobId::from_bytes(row.blob<16>(0));
-  job.kind = static_cast<JobKind>(row.integer(1));
-  job.state = static_cast<JobState>(row.integer(2));
+  job.kind = sql::checked(row.integer(1), JobKind::kPublish);
+  job.state = sql::checked(row.integer(2), JobState::kCancelled);
   job.scanner = row.text(3);
   job.scan = read_id<ScanId>(row, 4);
   job.model = read_id<ModelId>(row, 5);
@@ -81,6 +82,8 @@ void read(const Statement& row, JobRecord& job) {
   job.webhook = row.text(12);
   job.attempts = static_cast<std::uint32_t>(row.integer(13));
   job.fence = static_cast<std::uint64_t>(row.integer(14));
+  job.repairs = row.text(15);
+  job.owner = row.text(16);
 }
 
 void read(const Statement& row, ScanEntry& scan) {
@@ -98,6 +101,7 @@ void read(const Statement& row, ScanEntry& scan) {
   scan.created = row.integer(11);
   if (!row.is_null(12)) scan.rows = {row.real(12), row.real(13), row.real(14)};
   scan.revolution = row.text(15);
+  if (!row.is_null(16)) scan.built = row.blob<32>(16);
 }
 
 // Returns "a = ?1, b = ?2, …" for the columns "a, b, …".
@@ -227,9 +231,13 @@ class SqlJobs final : public JobCatalogue {
       std::string places = "?";
       for (std::size_t i = 1; i < kinds.size(); ++i)
         places += ",?";
-      const ScopedStatement rows(connection.prepare(
-          fmt::format("SELECT {} FROM job WHERE kind IN ({}) AND {} ORDER BY id LIMIT ?",
-                      kJobColumns, places, overdue ? is_free(connection) : kLeft)));
+      // The running jobs of an owner have its first turns.
+      const ScopedStatement rows(connection.prepare(fmt::format(
+          "SELECT {0} FROM job JOIN (SELECT id AS waiting, row_number() OVER "
+          "(PARTITION BY owner, scanner ORDER BY CASE WHEN {2} THEN 1 ELSE 0 END, id) AS place "
+          "FROM job WHERE kind IN ({1}) AND state IN (0, 1)) AS places ON id = waiting "
+          "WHERE {2} ORDER BY place, id LIMIT ?",
+          kJobColumns, places, overdue ? is_free(connection) : kLeft)));
       for (const JobKind kind : kinds)
         rows->bind(number(kind));
       return all<JobRecord>(rows->bind(number(limit)));
@@ -253,7 +261,8 @@ class SqlJobs final : public JobCatalogue {
         *database_, [&](DatabaseConnection& connection) -> Expected<JobRecord> {
           const ScopedStatement row(connection.prepare(fmt::format(
               "UPDATE job SET cancelled = 1, fence = CASE WHEN {0} THEN fence ELSE fence + 1 END, "
-              "state = CASE WHEN {0} THEN state ELSE 5 END, ended = CASE WHEN {0} THEN ended ELSE "
+              "state = CASE WHEN {0} THEN state WHEN state = 1 AND model IS NOT NULL THEN 3 ELSE 5 "
+              "END, ended = CASE WHEN {0} THEN ended ELSE "
               "?2 "
               "END WHERE id = ?1 AND state < 3 RETURNING {1}",
               fmt::format("state IN (1, 2) AND lease > {}", connection.now()), kJobColumns)));
@@ -399,9 +408,10 @@ class SqlJobs final : public JobCatalogue {
           const ScopedStatement row(
               connection.prepare("SELECT state, count(*) FROM job GROUP BY state"));
           JobCounts counts{};
-          while (row->step())
-            counts.at(static_cast<std::size_t>(row->integer(0))) =
-                static_cast<std::uint64_t>(row->integer(1));
+          while (row->step()) {
+            const auto state = sql::checked(row->integer(0), JobState::kCancelled);
+            counts[static_cast<std::size_t>(state)] = static_cast<std::uint64_t>(row->integer(1));
+          }
           return counts;
         });
   }

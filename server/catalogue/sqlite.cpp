@@ -27,6 +27,13 @@ int system_error(sqlite3* handle) {
   }
 }
 
+// Whether the connection's last error means that the file is damaged. SQLITE_ERROR reports tables
+// and columns that are missing.
+bool is_damage(sqlite3* handle) {
+  const int code = sqlite3_extended_errcode(handle) & 0xff;
+  return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
+}
+
 }  // namespace
 
 SqliteHandle::SqliteHandle(const std::string& file) {
@@ -46,7 +53,7 @@ void SqliteHandle::raise() const {
   if (error != 0) message += std::string(": ") + std::strerror(error);
   if (error == ENOSPC || error == EDQUOT)
     throw sql::Failure(message, ErrorCode::kLimit, "free some space or choose another data folder");
-  throw sql::Failure(message, ErrorCode::kIo, kAdvice);
+  throw sql::Failure(message, ErrorCode::kIo, is_damage(handle()) ? sql::kRestore : kAdvice);
 }
 
 void SqliteHandle::run(const char* sql) {
@@ -133,7 +140,8 @@ void SqliteStatement::bind_to(sql::Statement& other, int column) const {
 void SqliteStatement::copy_blob(int column, std::span<std::uint8_t> out) const {
   const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
   if (sqlite3_column_bytes(handle_.get(), column) != static_cast<int>(out.size())) {
-    throw sql::Failure("a column does not have the expected length", ErrorCode::kIo, kAdvice);
+    throw sql::Failure("a row is damaged: a column does not have the expected length",
+                       ErrorCode::kIo, sql::kRestore);
   }
   std::copy_n(bytes, out.size(), out.begin());
 }

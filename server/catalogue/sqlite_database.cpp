@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "server/catalogue/private_file.h"
 #include "server/catalogue/sqlite.h"
 
 namespace vitrine::server::sqlite {
@@ -97,8 +98,56 @@ CREATE TABLE scanner (
     R"sql(
 ALTER TABLE scan ADD COLUMN turn TEXT NOT NULL DEFAULT '';
 )sql",
+    R"sql(
+ALTER TABLE scan ADD COLUMN built BLOB;
+)sql",
+    R"sql(
+ALTER TABLE job ADD COLUMN repairs TEXT NOT NULL DEFAULT '';
+)sql",
+    R"sql(
+ALTER TABLE model ADD COLUMN texture_count INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN texture_side INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN texture_bytes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN public_texture_count INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN public_texture_side INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN public_texture_bytes INTEGER NOT NULL DEFAULT 0;
+)sql",
+    R"sql(
+ALTER TABLE job ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+)sql",
+    // The indices contain all columns that matter, so that the integrity check finds a changed
+    // value: it compares each row with its entries in the indices. Queries do not filter by the
+    // first columns of the guards, so the query planner does not choose them.
+    R"sql(
+CREATE INDEX model_guard ON model(
+  created, state, title, creator, rights, licence, unit, file, file_bytes, head_bytes, faces,
+  vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes,
+  public_head_bytes, public_faces, public_vertices, texture_count, texture_side, texture_bytes,
+  public_texture_count, public_texture_side, public_texture_bytes);
+CREATE INDEX job_guard ON job(
+  created, kind, state, scanner, scan, model, error, parameters, ended, webhook, attempts, told,
+  fence, cancelled, repairs, owner);
+CREATE INDEX scan_guard ON scan(
+  created, job, scanner, public, title, parameters, steps, step, points, calibration, model,
+  empty_rows, saturated_rows, doubled_rows, turn, built);
+CREATE INDEX idempotency_guard ON idempotency(request, job);
+CREATE INDEX token_guard ON token(created, role, hash, label, revoked);
+DROP INDEX chunk_of_model;
+CREATE INDEX chunk_of_model ON chunk(model, offset, length);
+)sql",
+    // The index guards the columns, as those above do, and finds the visits of some days.
+    R"sql(
+CREATE TABLE visit (
+  model BLOB NOT NULL REFERENCES model(id) ON DELETE CASCADE, day INTEGER NOT NULL,
+  visits INTEGER NOT NULL, seconds INTEGER NOT NULL, levels INTEGER NOT NULL,
+  complete INTEGER NOT NULL,
+  PRIMARY KEY (model, day)
+) WITHOUT ROWID;
+CREATE INDEX visit_of_day ON visit(day, visits, seconds, levels, complete);
+)sql",
 };
-constexpr std::int64_t kSince = 8;  // programs made for earlier tables refuse all newer tables
+// Programs for tables before version 8 cannot use the newest tables.
+constexpr std::int64_t kSince = 8;
 
 class SqliteConnection final : public sql::DatabaseConnection {
  public:
@@ -158,7 +207,14 @@ class SqliteDatabase final : public sql::Database {
 
 }  // namespace
 
+std::shared_ptr<sql::Database> newest_tables() {
+  auto database = std::make_shared<SqliteDatabase>(":memory:");
+  sql::migrate(*database->lease(), {.steps = kSteps, .since = kSince});
+  return database;
+}
+
 Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::path& file) {
+  ensure_private_file(file);  // SQLite gives the files beside it the same permissions
   try {
     auto database = std::make_shared<SqliteDatabase>(file.string());
     const auto connection = database->lease();

@@ -8,9 +8,13 @@
 
 namespace vitrine::server::sqlite {
 
-// Opens the database `file`, and creates or migrates its tables. The folder must exist. All threads
-// share one connection, one at a time. kIo if the file cannot be used. kUnsupported if a newer
-// version of Vitrine has changed the tables so that this version cannot use them.
+// Opens the database `file`, and creates or migrates its tables. Only its owner can read a new
+// file, because it holds hashes of tokens, and drafts. The folder must exist. All threads share one
+// connection, one at a time. kIo if the file cannot be used. kUnsupported if a newer version of
+// Vitrine has changed the tables so that this version cannot use them.
 Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::path& file);
+
+// Returns an empty database in memory with the newest tables. Throws a Failure if memory runs out.
+std::shared_ptr<sql::Database> newest_tables();
 
 }  // namespace vitrine::server::sqlite

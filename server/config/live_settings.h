@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the settings in force, which are replaced as a whole. A reader keeps the settings that it
-// got, even after they are replaced.
+// Holds the settings in force, which are replaced as a whole. Replaced settings stay valid for
+// their readers; reloads are rare, so all of them fit in memory.
 #pragma once
 
-#include <memory>
+#include <atomic>
+#include <deque>
 #include <mutex>
 #include <utility>
 
@@ -14,22 +15,20 @@ namespace vitrine::server {
 // Thread-safe.
 class LiveSettings {
  public:
-  explicit LiveSettings(Settings settings)
-      : settings_(std::make_shared<const Settings>(std::move(settings))) {}
+  explicit LiveSettings(Settings settings) { replace(std::move(settings)); }
 
-  std::shared_ptr<const Settings> get() const {
-    const std::scoped_lock lock(mutex_);
-    return settings_;
-  }
+  // Takes no lock, because every request calls it. The reference is valid as long as this object.
+  const Settings& get() const { return *current_.load(std::memory_order_acquire); }
   void replace(Settings settings) {
-    auto fresh = std::make_shared<const Settings>(std::move(settings));
     const std::scoped_lock lock(mutex_);
-    settings_.swap(fresh);
+    all_.push_back(std::move(settings));
+    current_.store(&all_.back(), std::memory_order_release);
   }
 
  private:
-  mutable std::mutex mutex_;  // guards the members below
-  std::shared_ptr<const Settings> settings_;
+  std::mutex mutex_;                      // guards `all_`
+  std::deque<Settings> all_;              // all settings that were ever in force
+  std::atomic<const Settings*> current_;  // the last of `all_`
 };
 
 }  // namespace vitrine::server

@@ -12,6 +12,8 @@
 namespace vitrine::server {
 namespace {
 
+constexpr std::array<std::uint8_t, 12> kMapped = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
+
 std::string_view bare(std::string_view text) {
   while (text.starts_with(' '))
     text.remove_prefix(1);
@@ -80,19 +82,32 @@ bool Networks::contain(std::string_view address) const {
          });
 }
 
-std::string network_of(std::string_view address) {
-  constexpr std::array<std::uint8_t, 12> kMapped = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
-  std::array<std::uint8_t, 16> bytes;
+namespace {
+
+// Returns the network prefix of an address as text. Appends a slash and the number of bits unless
+// the prefix is the whole address. Returns text that is not an address unchanged.
+std::string prefix_of(std::string_view address, unsigned ipv4_bits, unsigned ipv6_bits) {
   const std::string zeroed(address);
-  if (::inet_pton(AF_INET6, zeroed.c_str(), bytes.data()) != 1) return zeroed;
+  std::array<std::uint8_t, 16> bytes{};
+  const bool is_ipv4 = ::inet_pton(AF_INET, zeroed.c_str(), bytes.data() + kMapped.size()) == 1;
+  if (!is_ipv4 && ::inet_pton(AF_INET6, zeroed.c_str(), bytes.data()) != 1) return zeroed;
+  const bool is_short = is_ipv4 || std::equal(kMapped.begin(), kMapped.end(), bytes.begin());
+  const auto begin = bytes.begin() + (is_short ? kMapped.size() : 0);
+  const unsigned bits = is_short ? ipv4_bits : ipv6_bits;
+  std::fill(begin + bits / 8, bytes.end(), std::uint8_t{0});
   char text[INET6_ADDRSTRLEN] = "";
-  if (std::equal(kMapped.begin(), kMapped.end(), bytes.data())) {
-    ::inet_ntop(AF_INET, bytes.data() + kMapped.size(), text, sizeof text);
-    return text;
-  }
-  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
-  ::inet_ntop(AF_INET6, bytes.data(), text, sizeof text);
-  return std::string(text) + "/64";
+  ::inet_ntop(is_short ? AF_INET : AF_INET6, &*begin, text, sizeof text);
+  return is_short && bits == 32 ? text : fmt::format("{}/{}", text, bits);
+}
+
+}  // namespace
+
+std::string network_of(std::string_view address) {
+  return prefix_of(address, 32, 64);
+}
+
+std::string shortened(std::string_view address) {
+  return prefix_of(address, 24, 48);
 }
 
 bool is_address(std::string_view text) {

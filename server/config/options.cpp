@@ -8,8 +8,11 @@
 #include <array>
 #include <cctype>
 #include <limits>
+#include <optional>
 
 #include "codec/core/parse_number.h"
+#include "server/config/host_names.h"
+#include "server/config/webhook_key.h"
 
 namespace vitrine::server {
 namespace {
@@ -81,17 +84,6 @@ Expected<void> parse_list(List& list, std::string_view text, const char* missing
   return {};
 }
 
-// Whether `text` is an origin in the form that browsers send: scheme, host in lower case, and the
-// port unless it is the default.
-bool is_origin(std::string_view text) {
-  const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
-  const std::string_view host = text.substr(scheme);
-  return scheme > 0 && !host.empty() && std::ranges::all_of(host, [](unsigned char c) {
-           return std::islower(c) || std::isdigit(c) ||
-                  std::string_view("-.:[]").find(static_cast<char>(c)) != std::string_view::npos;
-         });
-}
-
 Expected<void> origins(Settings& settings, std::string_view text) {
   if (auto done = parse_list(settings.allowed_origins, text,
                              "an origin in the list is empty; remove the extra comma");
@@ -106,6 +98,19 @@ Expected<void> origins(Settings& settings, std::string_view text) {
   return {};
 }
 
+Expected<void> hosts(Settings& settings, std::string_view text) {
+  if (auto done =
+          parse_list(settings.hosts, text, "a host in the list is empty; remove the extra comma");
+      !done)
+    return done;
+  for (const std::string& host : settings.hosts) {
+    if (is_host_name(host)) continue;
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is not a host name; give, for example, museum.example", host));
+  }
+  return {};
+}
+
 Expected<void> scanners(Settings& settings, std::string_view text) {
   return parse_list(settings.scanners, text, "a path in the list is empty; remove the extra comma");
 }
@@ -113,6 +118,13 @@ Expected<void> scanners(Settings& settings, std::string_view text) {
 Expected<void> webhook_hosts(Settings& settings, std::string_view text) {
   return parse_list(settings.webhook_hosts, text,
                     "a host in the list is empty; remove the extra comma");
+}
+
+Expected<void> webhook_secret(Settings& settings, std::string_view text) {
+  auto key = webhook_key(text);
+  if (!key) return tl::unexpected(key.error());
+  settings.webhook_key = std::move(*key);
+  return {};
 }
 
 Expected<void> roles(Settings& settings, std::string_view text) {
@@ -137,6 +149,22 @@ Expected<void> roles(Settings& settings, std::string_view text) {
   return fail(ErrorCode::kBadInput, "the list is empty; give one or more of serve, build and scan");
 }
 
+Expected<void> log_addresses(Settings& settings, std::string_view text) {
+  if (text != "full" && text != "short") {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is not a form of addresses; give full or short", text));
+  }
+  settings.shortens_addresses = text == "short";
+  return {};
+}
+
+Expected<void> count_visits(Settings& settings, std::string_view text) {
+  if (text != "yes" && text != "no")
+    return fail(ErrorCode::kBadInput, fmt::format("'{}' is neither yes nor no; give one", text));
+  settings.counts_visits = text == "yes";
+  return {};
+}
+
 Expected<void> trusted_proxies(Settings& settings, std::string_view text) {
   auto networks = Networks::parse(text);
   if (!networks) return tl::unexpected(networks.error());
@@ -155,6 +183,15 @@ Expected<void> number(Settings& settings, std::string_view text) {
   if (!value) return tl::unexpected(value.error());
   using Number = std::remove_reference_t<decltype(settings.*Member)>;
   settings.*Member = static_cast<Number>(*value);
+  return {};
+}
+
+Expected<void> connection_share(Settings& settings, std::string_view text) {
+  const bool is_percentage = text.ends_with('%');
+  const auto value = is_percentage ? parse_within(text.substr(0, text.size() - 1), 1, 100)
+                                   : parse_within(text, 0, 1'000'000);
+  if (!value) return tl::unexpected(value.error());
+  settings.max_connections_per_address = {static_cast<std::uint32_t>(*value), is_percentage};
   return {};
 }
 
@@ -186,9 +223,8 @@ Expected<void> text_of(Settings& settings, std::string_view text) {
   return {};
 }
 
-// Reads the URL of a daemon, without slashes at its end: an origin, and a path if a proxy adds one.
-template <auto Member>
-Expected<void> address(Settings& settings, std::string_view text) {
+// Reads the URL of a server, without slashes at its end: an origin, and a path if a proxy adds one.
+Expected<std::string> server_url(std::string_view text) {
   while (text.ends_with('/'))
     text.remove_suffix(1);
   const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
@@ -196,11 +232,32 @@ Expected<void> address(Settings& settings, std::string_view text) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
            std::string_view("-._~:/[]").find(c) != std::string_view::npos;
   };
-  if (!text.empty() && (scheme == 0 || text.size() == scheme || !std::ranges::all_of(text, fits))) {
+  if (scheme == 0 || text.size() == scheme || !std::ranges::all_of(text, fits)) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("'{}' is not a URL; give, for example, https://museum.example", text));
   }
-  settings.*Member = std::string(text);
+  return std::string(text);
+}
+
+template <auto Member>
+Expected<void> address(Settings& settings, std::string_view text) {
+  if (text.empty()) return text_of<Member>(settings, text);
+  auto url = server_url(text);
+  if (!url) return tl::unexpected(url.error());
+  settings.*Member = std::move(*url);
+  return {};
+}
+
+Expected<void> purge_urls(Settings& settings, std::string_view text) {
+  if (auto done = parse_list(settings.purge_urls, text,
+                             "a URL in the list is empty; remove the extra comma");
+      !done)
+    return done;
+  for (std::string& cache : settings.purge_urls) {
+    auto url = server_url(cache);
+    if (!url) return tl::unexpected(url.error());
+    cache = std::move(*url);
+  }
   return {};
 }
 
@@ -301,6 +358,27 @@ constexpr std::array kOptions{
                   "disables it.",
            .apply = path<&S::access_log>,
            .is_reloadable = true},
+    Option{.key = "access-log-size",
+           .type = kBytes,
+           .default_value = "1073741824",
+           .doc = "Size at which the access log is renamed to FILE.old, which replaces an older "
+                  "one, and begun again. 0: never.",
+           .apply = number<&S::access_log_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
+           .is_reloadable = true},
+    Option{.key = "log-addresses",
+           .type = kText,
+           .default_value = "full",
+           .doc = "Clients' addresses in logs: full, or short (the network: 24 bits of an IPv4 "
+                  "address, 48 bits of an IPv6 address).",
+           .apply = log_addresses},
+    Option{.key = "count-visits",
+           .type = kText,
+           .default_value = "yes",
+           .doc =
+               "Whether to count visits to published models: yes or no. Only sums for each model "
+               "and day are stored: visits, seconds and levels of detail.",
+           .apply = count_visits,
+           .is_reloadable = true},
     Option{.key = "threads",
            .type = kCount,
            .default_value = "0",
@@ -314,12 +392,14 @@ constexpr std::array kOptions{
            .is_reloadable = true},
     Option{
         .key = "max-connections-per-address",
-        .type = kCount,
-        .default_value = "5000",
+        .type = kShare,
+        .default_value = "10%",
         .doc =
-            "Largest number of open connections from one address or one IPv6 /64 network. Trusted "
-            "proxies are exempt; their WebSockets count for the client behind them. 0: no limit.",
-        .apply = number<&S::max_connections_per_address, 0, 1'000'000>},
+            "Largest number of open connections from one address or one IPv6 /64 network, or its "
+            "share of 'max-connections'. Trusted proxies are exempt; their WebSockets count for "
+            "the client behind them. 0: no limit.",
+        .apply = connection_share,
+        .is_reloadable = true},
     Option{.key = "request-rate",
            .type = kCount,
            .default_value = "1000",
@@ -362,15 +442,26 @@ constexpr std::array kOptions{
            .type = kBytes,
            .default_value = "536870912",
            .doc = "Memory for responses that clients have not received yet. Beyond it, requests "
-                  "fail with 503; a response that is larger by itself fails with 507. Responses "
-                  "sent from files need none.",
+                  "fail with 503; a response that is larger by itself fails with 507. A client's "
+                  "address that already receives one gets half of it. Responses sent from files "
+                  "need none.",
            .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
+           .is_reloadable = true},
+    Option{.key = "hosts",
+           .type = kNames,
+           .default_value = "",
+           .doc = "Host names, without ports, under which clients reach this daemon. Requests for "
+                  "other names are refused (DNS rebinding). Numeric addresses, localhost and the "
+                  "hosts of 'public-url' and 'scan-address' are always answered. If 'public-url' "
+                  "is empty, too: 'listen' answers every name, 'admin-listen' none.",
+           .apply = hosts,
            .is_reloadable = true},
     Option{.key = "allowed-origins",
            .type = kOrigins,
            .default_value = "",
-           .doc = "Other web sites whose pages may open WebSockets here. Empty: all, but only "
-                  "without a token.",
+           .doc = "Other web sites whose pages may open WebSockets here, and send requests with a "
+                  "token, such as uploads. Empty: all may open WebSockets, but only without a "
+                  "token.",
            .apply = origins,
            .is_reloadable = true},
     Option{.key = "max-upload",
@@ -393,17 +484,45 @@ constexpr std::array kOptions{
            .default_value = "3600",
            .doc = "Time to keep a stored file that no model refers to.",
            .apply = number<&S::collect_after, 0, 31'536'000>},
+    Option{.key = "scrub-rate",
+           .type = kBytes,
+           .default_value = "8000000",
+           .doc = "Bytes per second that the check of all stored files reads. The check runs in "
+                  "the background, at the start and every week. 0 disables it.",
+           .apply = number<&S::scrub_rate, 0, 1'000'000'000'000>},
     Option{.key = "quota",
            .type = kBytes,
            .default_value = "0",
            .doc = "Largest total size of all models and uploads. 0: no limit.",
            .apply = number<&S::quota_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
+    Option{.key = "disk-reserve",
+           .type = kBytes,
+           .default_value = "1000000000",
+           .doc = "Free space that uploads leave on the disks of data and uploads. With less, "
+                  "/readyz and the metric vitrine_disk_nearly_full say so.",
+           .apply = number<&S::disk_reserve_bytes, 0, std::numeric_limits<std::int64_t>::max()>,
+           .is_reloadable = true},
     Option{.key = "webhook-hosts",
            .type = kNames,
            .default_value = "",
            .doc = "Servers that webhooks may call when jobs end: HOST or HOST:PORT, separated by "
                   "commas. Empty: webhooks are disabled.",
            .apply = webhook_hosts},
+    Option{.key = "purge-urls",
+           .type = kUrls,
+           .default_value = "",
+           .doc =
+               "Shared caches to ask to forget chunks that are no longer public: URLs, separated "
+               "by commas. The daemon sends PURGE URL/api/v1/chunks/SHA256.",
+           .apply = purge_urls},
+    Option{.key = "webhook-secret",
+           .type = kText,
+           .default_value = "",
+           .doc = "Secret that signs webhooks, shared with their receivers: whsec_ and 24 to 64 "
+                  "bytes in Base64. Set it in the file or the environment. Empty: webhooks are not "
+                  "signed.",
+           .is_secret = true,
+           .apply = webhook_secret},
     Option{.key = "scanners",
            .type = kPaths,
            .default_value = "",
@@ -452,6 +571,8 @@ std::string_view type_name(OptionType type) {
       return "PATH";
     case kCount:
       return "N";
+    case kShare:
+      return "N|N%";
     case kSeconds:
       return "SECONDS";
     case kBytes:
@@ -462,6 +583,8 @@ std::string_view type_name(OptionType type) {
       return "ORIGIN,...";
     case kUrl:
       return "URL";
+    case kUrls:
+      return "URL,...";
     case kText:
       return "TEXT";
     case kNames:

@@ -16,6 +16,7 @@ enum class OptionType {
   kEndpoint,
   kPath,
   kCount,
+  kShare,
   kSeconds,
   kBytes,
   kPaths,
@@ -23,6 +24,7 @@ enum class OptionType {
   kNames,
   kNetworks,
   kUrl,
+  kUrls,
   kText
 };
 

@@ -2,6 +2,7 @@
 // The daemon's settings as typed values. Their defaults are only in the table in options.cpp.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -22,10 +23,25 @@ struct Endpoint {
 
 // The roles of one daemon of an installation.
 struct Roles {
-  bool serves = false;  // answers visitors and operators
-  bool builds = false;  // builds models from uploads
-  bool scans = false;   // drives the scanners
+  bool serves = false;  // whether the daemon answers visitors and operators
+  bool builds = false;  // whether the daemon builds models from uploads
+  bool scans = false;   // whether the daemon drives the scanners
 };
+
+// A number of connections, or a percentage of the setting max-connections.
+struct ConnectionShare {
+  std::uint32_t value = 0;  // 0: no limit
+  bool is_percentage = false;
+
+  bool operator==(const ConnectionShare&) const = default;
+};
+
+// Returns the number of connections of a share, at least 1; SIZE_MAX if there is no limit.
+inline std::size_t connections_of(const ConnectionShare& share, std::size_t max_connections) {
+  if (share.value == 0) return SIZE_MAX;
+  if (!share.is_percentage) return share.value;
+  return std::max<std::size_t>(1, max_connections * share.value / 100);
+}
 
 struct Settings {
   Endpoint listen;
@@ -33,11 +49,14 @@ struct Settings {
   Roles roles;
   std::filesystem::path data;
   std::filesystem::path uploads;  // empty: in the data folder
-  std::string store, catalogue;   // URLs; an empty one means the data folder
+  std::string store, catalogue;   // URLs; if one is empty, the data folder is used
   std::string store_access_key, store_secret_key;
   std::filesystem::path port_file;        // empty: no such file is written
   std::filesystem::path admin_port_file;  // empty: no such file is written
   std::filesystem::path access_log;       // "-": standard error; empty: no log
+  std::uint64_t access_log_bytes = 0;     // size at which the log is replaced; 0: never
+  bool shortens_addresses = false;        // whether logs name networks instead of addresses
+  bool counts_visits = false;             // whether the daemon counts visits to models
   std::uint32_t threads = 0;              // 0: one per core
   std::uint32_t max_connections = 0;
   // Longest time to receive a whole request header, and longest time that a write may make no
@@ -47,22 +66,27 @@ struct Settings {
   std::uint64_t export_cache_bytes = 0;
   std::uint64_t model_cache_bytes = 0;
   std::uint64_t answer_memory_bytes = 0;
+  std::vector<std::string> hosts;            // such as "museum.example"; see host_names.h
   std::vector<std::string> allowed_origins;  // such as "https://museum.example"
   std::uint64_t max_upload_bytes = 0;
-  std::uint32_t max_uploads = 0;  // uploads that a token may have open at a time
+  std::uint32_t max_uploads = 0;  // largest number of uploads that a token may have open
   // How long an upload is kept after its last part was received.
   std::chrono::seconds upload_lifetime{};
   std::chrono::seconds collect_after{};  // age at which an unreferenced object is removed
   std::uint64_t quota_bytes = 0;  // limit on the size of models and uploads together; 0: no limit
-  std::vector<std::string> webhook_hosts;       // entries are "host" or "host:port"
+  std::uint64_t scrub_rate = 0;   // bytes per second of the background check; 0: no check
+  std::uint64_t disk_reserve_bytes = 0;    // free space below which a disk counts as nearly full
+  std::vector<std::string> webhook_hosts;  // entries are "host" or "host:port"
+  std::string webhook_key;  // bytes of the key that signs webhooks; empty: they are not signed
+  std::vector<std::string> purge_urls;          // URLs of caches, without a slash at the end
   std::vector<std::filesystem::path> scanners;  // paths of rig.json files
   // URL under which other daemons reach this daemon, without a slash at its end. Empty if they
-  // cannot.
+  // cannot reach it.
   std::string scan_address;
   std::filesystem::path tls_certificate;  // empty: the daemon does not use TLS
   std::filesystem::path tls_key;
   Networks trusted_proxies;
-  std::uint32_t max_connections_per_address = 0;
+  ConnectionShare max_connections_per_address;
   // Requests per second of each address and of each token. 0: no limit.
   std::uint32_t request_rate = 0;
   // Bytes per second that a client must receive on average; 0: no minimum.

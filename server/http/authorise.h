@@ -16,8 +16,8 @@ struct Credentials {
   std::string_view request_id;
 };
 
-// Whether authorise() must be called for the request. A route without a role needs it only if the
-// request has a token and the handler does not run inline.
+// Whether authorise() must be called for the request. A route without a role needs this call only
+// if the request has a token and the handler does not run inline.
 bool needs_authorisation(const Route& route, const RequestHeader& header);
 
 struct Authorisation {

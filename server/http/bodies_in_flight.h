@@ -21,11 +21,12 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
 
   void set_capacity(std::uint64_t max_bytes) { max_bytes_ = max_bytes; }
 
-  // Admits a body, or returns null if there is no room. The caller must keep the result until
-  // `body` is sent. A text counts with its size. Shared memory counts once, however many
-  // connections send it. Stored bytes, static memory and bodies smaller than kSmall bytes do not
-  // count.
-  std::shared_ptr<const void> admit(const Body& body);
+  // Admits a body for `network` (network_of()), or returns null if there is no room. A network to
+  // which other bodies are being sent may fill half of the memory only. The caller must keep the
+  // result until `body` is sent. A text counts with its size. Shared memory counts once, however
+  // many connections send it. Stored bytes, static memory and bodies smaller than kSmall bytes do
+  // not count.
+  std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
   // Whether the body would be admitted if no other response were being sent.
   bool fits_alone(const Body& body) const { return body_size(body) <= max_bytes_; }
@@ -35,15 +36,19 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
  private:
   struct Shared {
     std::size_t senders = 0;
-    std::uint64_t bytes = 0;  // number of bytes counted: the size of the first sender's body
+    std::uint64_t bytes = 0;  // bytes counted for this memory: the size of the first sender's body
+    std::string network;      // the first sender's network
   };
-  bool enter(const void* owner, std::uint64_t size);  // `owner` is null if the memory is not shared
-  void leave(const void* owner, std::uint64_t size);
+  // `owner` is null if the memory is not shared.
+  bool enter(const void* owner, std::uint64_t size, const std::string& network);
+  void leave(const void* owner, std::uint64_t size, const std::string& network);
+  void release(std::uint64_t size, const std::string& network);
 
   std::atomic<std::uint64_t> max_bytes_;
   std::mutex mutex_;  // guards the members below
   std::uint64_t bytes_ = 0;
   std::unordered_map<const void*, Shared> shared_;
+  std::unordered_map<std::string, std::size_t> counted_;  // per network: the bodies that count
 };
 
 }  // namespace vitrine::server

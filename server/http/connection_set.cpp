@@ -83,33 +83,29 @@ bool ConnectionSet::count_as(Connection& connection, const std::string& client) 
   return true;
 }
 
-void ConnectionSet::lasts_for(const Connection& connection, const Caller& caller) {
+void ConnectionSet::lasts_while(const Connection& connection, MayContinue may_continue) {
+  auto check = std::make_shared<const MayContinue>(std::move(may_continue));
   const std::scoped_lock lock(mutex_);
-  lasting_[&connection] = caller;
+  lasting_[&connection] = std::move(check);
 }
 
-std::vector<Caller> ConnectionSet::lasting_callers() {
-  std::vector<Caller> callers;
-  const std::scoped_lock lock(mutex_);
-  for (const auto& [connection, caller] : lasting_)
-    callers.push_back(caller);
-  return callers;
-}
-
-void ConnectionSet::end_those_of(const Caller& caller) {
-  const auto is_theirs = [&](const std::shared_ptr<Connection>& connection) {
+void ConnectionSet::end_forbidden() {
+  std::vector<std::pair<std::weak_ptr<Connection>, std::shared_ptr<const MayContinue>>> checks;
+  {
     const std::scoped_lock lock(mutex_);
-    const auto found = lasting_.find(connection.get());
-    return found != lasting_.end() && found->second.token == caller.token;
-  };
-  for (const auto& connection : alive()) {
-    if (is_theirs(connection)) post(connection, end);
+    for (const auto& [connection, may_continue] : lasting_)
+      checks.emplace_back(connections_.at(connection), may_continue);
+  }
+  for (const auto& [weak, may_continue] : checks) {
+    if ((*may_continue)()) continue;
+    if (const auto connection = weak.lock()) post(connection, end);
   }
 }
 
-void ConnectionSet::set_capacity(std::size_t capacity) {
+void ConnectionSet::set_capacity(std::size_t capacity, std::size_t per_address) {
   const std::scoped_lock lock(mutex_);
   capacity_ = capacity;
+  per_address_ = per_address;
 }
 
 std::vector<std::shared_ptr<Connection>> ConnectionSet::alive() {

@@ -9,7 +9,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "server/auth/authenticator.h"
 #include "server/config/networks.h"
 #include "server/http/connection.h"
 
@@ -18,10 +17,10 @@ namespace vitrine::server {
 // Thread-safe.
 class ConnectionSet {
  public:
-  // Admits `capacity` connections in all and `per_address` of each network, as network_of() defines
-  // it. Trusted proxies are exempt from the limit per network.
+  // Admits `capacity` connections in all, and `per_address` connections of each network
+  // (network_of()). Trusted proxies are exempt from the limit per network.
   ConnectionSet(std::size_t capacity, std::size_t per_address, Networks proxies = {})
-      : per_address_(per_address), proxies_(std::move(proxies)), capacity_(capacity) {}
+      : proxies_(std::move(proxies)), capacity_(capacity), per_address_(per_address) {}
 
   enum class Admission { kAdmitted, kFull, kAddressFull };
   Admission add(const std::shared_ptr<Connection>& connection);
@@ -32,14 +31,15 @@ class ConnectionSet {
   // limit, returns false and changes nothing.
   bool count_as(Connection& connection, const std::string& client);
 
-  // Registers a long-lived connection of `caller`, whose token may be revoked while it is open.
-  void lasts_for(const Connection& connection, const Caller& caller);
-  std::vector<Caller> lasting_callers();  // one entry per registered connection
-  // Asks the registered connections that use the token of `caller` to end, as drain() does.
-  void end_those_of(const Caller& caller);
+  // Returns whether a connection may continue. Thread-safe; may block.
+  using MayContinue = std::function<bool()>;
+  // Registers a long-lived connection, for which end_forbidden() calls `may_continue`.
+  void lasts_while(const Connection& connection, MayContinue may_continue);
+  // Asks the registered connections that may not continue to end, as drain() does. Blocks.
+  void end_forbidden();
 
-  // Changes the limit for new connections. Open connections stay open.
-  void set_capacity(std::size_t capacity);
+  // Changes the limits for new connections. Open connections stay open.
+  void set_capacity(std::size_t capacity, std::size_t per_address);
 
   // Closes every connection whose deadline has passed.
   void sweep();
@@ -52,15 +52,14 @@ class ConnectionSet {
   std::vector<std::shared_ptr<Connection>> alive();
   void count_less(const std::string& network);
 
-  const std::size_t per_address_;
   const Networks proxies_;
   std::mutex mutex_;  // guards the members below
-  std::size_t capacity_;
+  std::size_t capacity_, per_address_;
   bool draining_ = false;
   std::function<void()> on_empty_;
   std::unordered_map<const Connection*, std::weak_ptr<Connection>> connections_;
   std::unordered_map<std::string, std::size_t> of_network_;
-  std::unordered_map<const Connection*, Caller> lasting_;
+  std::unordered_map<const Connection*, std::shared_ptr<const MayContinue>> lasting_;
 };
 
 }  // namespace vitrine::server

@@ -4,6 +4,7 @@
 #include "server/http/authorise.h"
 #include "server/messages/body_sink.h"
 #include "server/messages/conditional.h"
+#include "server/messages/content_coding.h"
 #include "server/messages/query.h"
 
 namespace vitrine::server {
@@ -12,6 +13,11 @@ namespace {
 using beast::http::verb;
 
 constexpr std::size_t kMaxTarget = 8 * 1024;
+// Size in bytes of the largest JSON that a thread that serves connections compresses. This takes
+// about a millisecond.
+constexpr std::size_t kMostCompressedInline = 64 * 1024;
+// Size in bytes of the largest JSON that a worker compresses.
+constexpr std::size_t kMostCompressed = 4 * 1024 * 1024;
 
 std::string_view target_of(const RequestHeader& header) {
   return {header.target().data(), header.target().size()};
@@ -35,6 +41,20 @@ std::optional<Method> method_of(verb method) {
   }
 }
 
+// Returns the method that the request asks for. Clients that can send only GET and POST send POST
+// with the real method in X-HTTP-Method-Override (tus 1.0.0).
+verb method_sent(const RequestHeader& header) {
+  if (header.method() != verb::post) return header.method();
+  const verb real = beast::http::string_to_verb(header["X-HTTP-Method-Override"]);
+  return real == verb::patch || real == verb::delete_ ? real : verb::post;
+}
+
+// Whether the listener answers requests for the host that this request names (DNS rebinding).
+bool is_answered_host(const RequestHeader& header, const HttpOptions& options) {
+  const auto host = header[beast::http::field::host];
+  return !options.answers_to || options.answers_to({host.data(), host.size()});
+}
+
 // Answers an OPTIONS request, which may be a CORS preflight. Pages of other origins may only read
 // public paths.
 Response options(std::string allow, bool is_public_read) {
@@ -50,6 +70,26 @@ Response options(std::string allow, bool is_public_read) {
   return response;
 }
 
+// Returns the request's origin if its pages may send any request, else an empty string.
+std::string trusted_origin_of(const RequestHeader& header, const HttpOptions& options) {
+  const auto sent = header[beast::http::field::origin];
+  const bool is_trusted =
+      !sent.empty() && options.trusts_origin && options.trusts_origin({sent.data(), sent.size()});
+  return is_trusted ? std::string(sent) : std::string();
+}
+
+// Allows pages of a trusted origin to send what a preflight asks for.
+void allow_all(const RequestHeader& header, Response& response) {
+  const auto wanted = header[beast::http::field::access_control_request_headers];
+  std::erase_if(response.fields,
+                [](const auto& field) { return field.first.starts_with("Access"); });
+  response.fields.insert(
+      response.fields.end(),
+      {{"Access-Control-Allow-Methods", "GET, HEAD, POST, PATCH, DELETE, OPTIONS"},
+       {"Access-Control-Allow-Headers", std::string(wanted)},
+       {"Access-Control-Max-Age", "600"}});
+}
+
 Response not_allowed(std::string allow, std::string_view id) {
   Response response = problem(405, "the path does not take this method", id);
   response.fields = {{"Allow", std::move(allow)}};
@@ -62,6 +102,11 @@ Response not_admitted(AdmissionLimit::Refusal why, std::string_view id) {
   Response response = problem(429, "this address has enough under way; wait", id);
   response.fields = {{"Retry-After", "5"}};
   return response;
+}
+
+// Returns the owner for whom the request takes turns: its token, or its network if it has no token.
+std::string owner_of(const Exchange& exchange) {
+  return exchange.caller ? exchange.caller->token.to_string() : network_of(exchange.client.address);
 }
 
 bool takes_json(const Route& route) {
@@ -79,9 +124,24 @@ bool answer_at_once(const Request& request, Exchange& exchange) {
 }  // namespace
 
 asio::awaitable<bool> Dispatcher::dispatch(RequestParser& parser, Exchange& exchange) {
+  exchange.trusted_origin = trusted_origin_of(parser.get(), server_.options());
   find_route(parser.get(), exchange);
-  if (exchange.route == nullptr) co_return true;
-  co_return co_await answer(parser, exchange);
+  const bool is_answered = exchange.route == nullptr || co_await answer(parser, exchange);
+  const bool is_preflight =
+      parser.get().method() == verb::options && exchange.response.status == 204;
+  if (is_preflight && !exchange.trusted_origin.empty()) {
+    exchange.is_public_read = false;
+    allow_all(parser.get(), exchange.response);
+  }
+  if (is_answered) count_error(exchange);
+  co_return is_answered;
+}
+
+void Dispatcher::count_error(Exchange& exchange) {
+  const bool is_stop = exchange.route != nullptr && exchange.route->is_urgent && exchange.caller;
+  const bool is_made = exchange.route != nullptr && exchange.response.status < 400;
+  if (is_made || exchange.is_rated || is_stop) return;
+  static_cast<void>(has_no_call_left(network_of(exchange.client.address), exchange));
 }
 
 // Sets the route, or the response if no handler is needed to make it.
@@ -89,6 +149,13 @@ void Dispatcher::find_route(const RequestParser::value_type& request, Exchange& 
   const auto target = split_target(target_of(request));
   if (!target || request.target().size() > kMaxTarget) {
     return exchange.reject(target ? 414 : 400, "the target is not a path");
+  }
+  if (!is_answered_host(request, server_.options())) {
+    exchange.is_public_read = false;
+    exchange.response = problem(
+        421, "the server does not answer to this host name; its setting 'hosts' lists the names",
+        exchange.id);
+    return;
   }
   const Router& router = server_.router();
   const auto match = router.match(target->path);
@@ -98,7 +165,7 @@ void Dispatcher::find_route(const RequestParser::value_type& request, Exchange& 
   }
   exchange.route_template = router.template_of(match->index);
   exchange.parameters = match->parameters;
-  const auto method = method_of(request.method());
+  const auto method = method_of(method_sent(request));
   const auto route = method ? router.find(*match, *method) : std::nullopt;
   if (route) {
     exchange.route = &router.routes()[*route];
@@ -148,9 +215,14 @@ asio::awaitable<bool> Dispatcher::answer(RequestParser& parser, Exchange& exchan
 
 // Sets a 429 response and returns true if `client` exceeds the request rate.
 bool Dispatcher::is_beyond_rate(std::string_view client, Exchange& exchange) {
-  if (exchange.route->is_urgent) return false;
+  return !exchange.route->is_urgent && has_no_call_left(client, exchange);
+}
+
+bool Dispatcher::has_no_call_left(std::string_view client, Exchange& exchange) {
+  exchange.is_rated = true;
   const auto wait = server_.rate_limit().take(client);
   if (wait.count() == 0) return false;
+  exchange.is_beyond_rate = true;
   exchange.response = problem(429, "too many requests; wait", exchange.id);
   exchange.response.fields = {{"Retry-After", std::to_string(wait.count())}};
   return true;
@@ -162,7 +234,7 @@ asio::awaitable<bool> Dispatcher::authorise_caller(const RequestHeader& header,
   const Credentials credentials{header, exchange.client.address, exchange.id};
   auto found = authorise_at_once(*exchange.route, credentials, with);
   if (!found) {
-    co_await on_worker(Executor::kWorker, target_of(header),
+    co_await on_worker(Executor::kWorker,
                        [&] { found = authorise(*exchange.route, credentials, with); });
   }
   exchange.caller = found->caller;
@@ -174,8 +246,7 @@ asio::awaitable<bool> Dispatcher::authorise_caller(const RequestHeader& header,
 asio::awaitable<void> Dispatcher::handle(const Request& request, Exchange& exchange) {
   const Route& route = *exchange.route;
   const auto run = [&] {
-    exchange.response =
-        apply_conditions(request.header, guarded(route.handler, request), exchange.id);
+    exchange.response = apply_conditions(request.header, guarded(route, request), exchange.id);
   };
   if (route.executor == Executor::kInline) {
     run();
@@ -186,14 +257,22 @@ asio::awaitable<void> Dispatcher::handle(const Request& request, Exchange& excha
     exchange.response = not_admitted(pass.error(), exchange.id);
     co_return;
   }
-  co_await on_worker(route.executor, target_of(request.header), run);
+  FairTurns::Turn turn;
+  if (route.executor == Executor::kCompute) {
+    connection_.never_expires();
+    turn = co_await server_.workers().computing_turn(owner_of(exchange),
+                                                     std::string(target_of(request.header)));
+  }
+  co_await on_worker(route.executor, run);
 }
 
 // Calls the handler and catches its exceptions (out of memory, an unexpected library error), so
 // that only this request fails.
-Response Dispatcher::guarded(const Handler& handler, const Request& request) {
+Response Dispatcher::guarded(const Route& route, const Request& request) {
+  const bool is_inline = route.executor == Executor::kInline;
   try {
-    return handler(request);
+    return in_accepted_coding(request.header, route.handler(request),
+                              is_inline ? kMostCompressedInline : kMostCompressed);
   } catch (const std::exception& fault) {
     server_.dependencies().events.event(
         Severity::kError, std::string("request ") + std::string(request.id) + ": " + fault.what());
@@ -206,29 +285,27 @@ Response Dispatcher::guarded(const Handler& handler, const Request& request) {
 // keeps what it has received, even if the peer disconnects or the server drains.
 asio::awaitable<bool> Dispatcher::pour(RequestParser& parser, Exchange& exchange) {
   const std::shared_ptr<BodySink> sink = std::move(exchange.response.sink);
-  const std::string target(target_of(parser.get()));
   std::optional<Response> refusal;
   RequestReader::Consumer take = [&](std::span<const std::uint8_t> piece) -> asio::awaitable<bool> {
-    co_await on_worker(Executor::kDisk, target, [&] { refusal = sink->take(piece); });
+    co_await on_worker(Executor::kDisk, [&] { refusal = sink->take(piece); });
     co_return !refusal;
   };
   const ReadResult read = co_await reader_.read_pieces(parser, exchange, std::move(take));
   if (refusal) exchange.response = std::move(*refusal);
   if (refusal || read == ReadResult::kRejected) co_return true;
-  co_await on_worker(Executor::kDisk, target, [&] { exchange.response = sink->finish(); });
+  co_await on_worker(Executor::kDisk, [&] { exchange.response = sink->finish(); });
   co_return read == ReadResult::kRead;
 }
 
-// Runs `task` on a worker. This connection waits meanwhile; others are served.
+// Runs `task` on a worker while this connection waits. Other connections are served.
 template <class Task>
-asio::awaitable<void> Dispatcher::on_worker(Executor executor, std::string_view target,
-                                            const Task& task) {
+asio::awaitable<void> Dispatcher::on_worker(Executor executor, const Task& task) {
   connection_.never_expires();
   auto work = [&]() -> asio::awaitable<void> {
     task();
     co_return;
   };
-  co_await asio::co_spawn(server_.workers().executor(executor, target), work, asio::use_awaitable);
+  co_await asio::co_spawn(server_.workers().executor(executor), work, asio::use_awaitable);
 }
 
 }  // namespace vitrine::server

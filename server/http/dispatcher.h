@@ -13,6 +13,11 @@ class Dispatcher {
   Dispatcher(Connection& connection, HttpServer& server, RequestReader& reader)
       : connection_(connection), server_(server), reader_(reader) {}
 
+  // If the response is an error or comes from no route, counts the request towards its client's
+  // request rate, unless that was done before. Such responses are logged, so they must not be free.
+  // Beyond the rate, the response becomes 429.
+  void count_error(Exchange& exchange);
+
   // Sets exchange.response. Returns false if there is no response to send, since the peer has
   // disconnected or the server drains.
   asio::awaitable<bool> dispatch(RequestParser& parser, Exchange& exchange);
@@ -21,12 +26,13 @@ class Dispatcher {
   void find_route(const RequestParser::value_type& request, Exchange& exchange) const;
   asio::awaitable<bool> answer(RequestParser& parser, Exchange& exchange);
   bool is_beyond_rate(std::string_view client, Exchange& exchange);
+  bool has_no_call_left(std::string_view client, Exchange& exchange);
   asio::awaitable<bool> authorise_caller(const RequestHeader& header, Exchange& exchange);
   asio::awaitable<void> handle(const Request& request, Exchange& exchange);
-  Response guarded(const Handler& handler, const Request& request);
+  Response guarded(const Route& route, const Request& request);
   asio::awaitable<bool> pour(RequestParser& parser, Exchange& exchange);
   template <class Task>
-  asio::awaitable<void> on_worker(Executor executor, std::string_view target, const Task& task);
+  asio::awaitable<void> on_worker(Executor executor, const Task& task);
 
   Connection& connection_;
   HttpServer& server_;

@@ -23,7 +23,7 @@ bool has_left(Connection& connection) {
 }  // namespace
 
 std::string event_text(const Event& event) {
-  return fmt::format("event: {}\ndata: {}\n\n", event.name, event.data);
+  return fmt::format("event: {}\nid: {}\ndata: {}\n\n", event.name, event.id, event.data);
 }
 
 asio::awaitable<std::uint64_t> send_events(Connection& connection, EventSource& source,

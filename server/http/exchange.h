@@ -27,8 +27,11 @@ struct Exchange {
   const Route* route = nullptr;
   std::optional<Caller> caller;
   nlohmann::json body = nlohmann::json::object();
+  bool is_rated = false;        // whether the request has been counted towards a request rate
+  bool is_beyond_rate = false;  // whether the response is 429 because of a request rate
   bool is_body_read = false;
   bool is_public_read = true;
+  std::string trusted_origin;  // the page's origin if it may read every response; else empty
   bool keep_alive = true;
   Response response;
 

@@ -9,6 +9,10 @@
 namespace vitrine::server {
 namespace {
 
+// A connection that may no longer continue ends within a second. That includes this interval and
+// the time of the check.
+constexpr std::chrono::milliseconds kSweepInterval{500};
+
 // Sends `text` without waiting for the peer. The text is lost if the socket cannot accept it at
 // once.
 void answer_at_once(ByteStream& stream, std::string_view text) {
@@ -38,19 +42,24 @@ Expected<std::uint16_t> HttpServer::listen(const Endpoint& endpoint) {
   return server::listen(acceptor_, endpoint);
 }
 
-void HttpServer::set_limits(std::size_t max_connections, std::chrono::seconds idle_timeout,
-                            std::uint64_t answer_memory) {
-  connections_.set_capacity(max_connections);
-  bodies_->set_capacity(answer_memory);
-  idle_timeout_ = idle_timeout;
+void HttpServer::set_limits(const Limits& limits) {
+  connections_.set_capacity(limits.max_connections, limits.per_address);
+  bodies_->set_capacity(limits.answer_memory);
+  idle_timeout_ = limits.idle_timeout;
+}
+
+bool HttpServer::may_log_refusal(std::string_view address) {
+  if (log_ration_.take(network_of(address)).count() == 0) return true;
+  dependencies_.metrics.refusals_not_logged.fetch_add(1, std::memory_order_relaxed);
+  return false;
 }
 
 void HttpServer::start() {
   const auto failed = [this](std::string_view fault) {
     dependencies_.events.event(Severity::kError, fault);
   };
-  // If accepting fails because descriptors or memory have run out, it is retried, since connections
-  // free them when they end.
+  // Accepting fails if descriptors or memory have run out. The server tries again, since
+  // connections free both when they end.
   asio::co_spawn(strand_,
                  keep_trying(
                      pause_, std::chrono::milliseconds(100), [this] { return acceptor_.is_open(); },
@@ -58,7 +67,7 @@ void HttpServer::start() {
                  asio::detached);
   asio::co_spawn(strand_,
                  repeat(
-                     sweeper_, std::chrono::seconds(1), [this] { sweep(); }, failed),
+                     sweeper_, kSweepInterval, [this] { sweep(); }, failed),
                  asio::detached);
 }
 
@@ -106,27 +115,31 @@ asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) 
 void HttpServer::sweep() {
   connections_.sweep();
   refresh_certificate();
-  end_revoked();
+  end_forbidden();
 }
 
-// Ends long-lived connections whose tokens have been revoked. A worker reads the catalogue, since
-// that may block. Only one check runs at a time.
-void HttpServer::end_revoked() {
-  auto callers = connections_.lasting_callers();
-  if (callers.empty() || !revocation_check_.expired()) return;
+void HttpServer::lasts_while(const Connection& connection, const std::optional<Caller>& caller,
+                             ConnectionSet::MayContinue may_continue) {
+  connections_.lasts_while(connection, [this, caller, may_continue = std::move(may_continue)] {
+    const auto in_force = caller ? dependencies_.tokens.is_in_force(*caller) : true;
+    const bool is_revoked = in_force && !*in_force;
+    return !is_revoked && may_continue();
+  });
+}
+
+// Ends long-lived connections that may not continue. A worker reads the catalogue, since that may
+// block. Only one check runs at a time.
+void HttpServer::end_forbidden() {
+  if (!permission_check_.expired()) return;
   const auto check = std::make_shared<int>();
-  revocation_check_ = check;
-  asio::post(workers().executor(Executor::kWorker, ""),
-             [this, check, callers = std::move(callers)] {
-               try {
-                 for (const Caller& caller : callers) {
-                   const auto in_force = dependencies_.tokens.is_in_force(caller);
-                   if (in_force && !*in_force) connections_.end_those_of(caller);
-                 }
-               } catch (const std::exception& fault) {
-                 dependencies_.events.event(Severity::kError, fault.what());
-               }
-             });
+  permission_check_ = check;
+  asio::post(workers().executor(Executor::kWorker), [this, check] {
+    try {
+      connections_.end_forbidden();
+    } catch (const std::exception& fault) {
+      dependencies_.events.event(Severity::kError, fault.what());
+    }
+  });
 }
 
 void HttpServer::refresh_certificate() {

@@ -27,7 +27,16 @@ namespace vitrine::server {
 struct HttpOptions {
   std::vector<Route> routes;
   std::span<const ParameterPattern> parameters;  // the parameters in the routes' paths
-  bool is_recorded = true;  // whether requests appear in the access log and the metrics
+  // Whether to answer requests with this value of the Host field; empty: always. Must be
+  // thread-safe.
+  std::function<bool(std::string_view host)> answers_to = {};
+  // Whether pages of this origin may send any request and read its response (CORS); empty: never.
+  // Must be thread-safe.
+  std::function<bool(std::string_view origin)> trusts_origin = {};
+  // Whether pages of all origins may read responses that need no token.
+  bool is_read_by_pages = true;
+  bool is_recorded = true;          // whether requests appear in the access log and the metrics
+  bool shortens_addresses = false;  // whether the logs name networks instead of addresses
   std::size_t max_connections = 1;
   std::chrono::seconds idle_timeout{30};
   std::shared_ptr<LiveTls> tls = {};  // null if the server does not use TLS
@@ -59,9 +68,13 @@ class HttpServer {
   // Stops accepting connections and ends the open ones (ConnectionSet::drain).
   void drain(std::function<void()> on_empty);
 
-  // Changes these limits. May be called while the server runs.
-  void set_limits(std::size_t max_connections, std::chrono::seconds idle_timeout,
-                  std::uint64_t answer_memory);
+  // Limits that may change while the server runs; see HttpOptions.
+  struct Limits {
+    std::size_t max_connections = 1, per_address = SIZE_MAX;
+    std::chrono::seconds idle_timeout{30};
+    std::uint64_t answer_memory = UINT64_MAX;
+  };
+  void set_limits(const Limits& limits);
 
   // The functions below are for the sessions.
   const Router& router() const { return router_; }
@@ -70,8 +83,14 @@ class HttpServer {
   Workers& workers() { return dependencies_.workers; }
   asio::io_context& io() { return io_; }
   RateLimit& rate_limit() { return rate_limit_; }
+  // Whether to log one more refused request of this address. Counts those that are not logged.
+  bool may_log_refusal(std::string_view address);
   BodiesInFlight& bodies() { return *bodies_; }
   ConnectionSet& connections() { return connections_; }
+  // Registers a long-lived response. The response ends within a second after the token of `caller`
+  // was revoked, or after `may_continue` returned false.
+  void lasts_while(const Connection& connection, const std::optional<Caller>& caller,
+                   ConnectionSet::MayContinue may_continue);
   Pace pace() const { return {idle_timeout_.load(std::memory_order_relaxed), options_.min_rate}; }
 
  private:
@@ -81,7 +100,7 @@ class HttpServer {
   void refresh_certificate();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
   void sweep();
-  void end_revoked();
+  void end_forbidden();
 
   asio::io_context& io_;
   const HttpDependencies dependencies_;
@@ -89,6 +108,9 @@ class HttpServer {
   const Router router_;
   ConnectionSet connections_;
   RateLimit rate_limit_;
+  // Refusals that are logged per address and second.
+  static constexpr std::uint32_t kLoggedRefusals = 10;
+  RateLimit log_ration_{kLoggedRefusals};
   const std::shared_ptr<BodiesInFlight> bodies_;
   std::atomic<std::chrono::seconds> idle_timeout_;
   asio::strand<asio::io_context::executor_type> strand_;  // guards the members below
@@ -96,8 +118,8 @@ class HttpServer {
   asio::steady_timer pause_;           // timer that delays the next accept after an error
   std::filesystem::path socket_file_;  // empty unless the server listens on a Unix socket
   asio::steady_timer sweeper_;
-  // Not expired while a worker looks for revoked tokens.
-  std::weak_ptr<const void> revocation_check_;
+  // Not expired while a worker checks which connections may continue.
+  std::weak_ptr<const void> permission_check_;
 };
 
 }  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Listening sockets: on an address and port, or on the path of a Unix socket.
+// Opens listening sockets on an address and port, or on the path of a Unix socket.
 #pragma once
 
 #include <boost/asio/basic_socket_acceptor.hpp>

@@ -14,7 +14,7 @@ using PieceParser = beast::http::request_parser<beast::http::buffer_body>;
 
 constexpr std::uint32_t kMaxHeader = 16 * 1024;
 constexpr std::size_t kBodyPiece = 64 * 1024;
-// Bytes that the buffer of an idle connection may keep.
+// Size in bytes of the largest buffer that an idle connection keeps.
 constexpr std::size_t kIdleBuffer = 4 * 1024;
 
 unsigned status_of(const boost::system::error_code& error) {
@@ -40,10 +40,10 @@ asio::awaitable<ReadResult> RequestReader::read_header(RequestParser& parser, Ex
       co_await beast::http::async_read_header(connection_.socket, buffer_, parser, kNoThrow);
   connection_.idle = false;
   exchange.start = Connection::Clock::now();
+  exchange.client = {connection_.remote, connection_.socket.is_encrypted()};
   if (error) co_return rejected(error, exchange);
   exchange.keep_alive = parser.keep_alive();
-  exchange.client = client_of({connection_.remote, connection_.socket.is_encrypted()}, parser.get(),
-                              server_.options().proxies);
+  exchange.client = client_of(std::move(exchange.client), parser.get(), server_.options().proxies);
   if (const auto fault = framing_fault(parser.get()); !fault.empty()) {
     exchange.reject(400, fault);
     co_return ReadResult::kRejected;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/response_writer.h"
 
+#include "server/config/networks.h"
 #include "server/http/event_stream.h"
+#include "server/messages/problem_page.h"
 
 namespace vitrine::server {
 namespace {
@@ -16,8 +18,23 @@ Response no_room(bool will_be, std::string_view id) {
                  id);
 }
 
-bool changes_data(Method method) {
-  return method != Method::kGet && method != Method::kOptions;
+// Whether the request tried to change data.
+bool is_change(const Exchange& exchange) {
+  return exchange.route != nullptr && exchange.route->method != Method::kGet &&
+         exchange.route->method != Method::kOptions;
+}
+
+// Whether the request tried to change data that only callers with a role may change. Everybody may
+// report a visit, and the audit log does not record who did.
+bool is_audited(const Exchange& exchange) {
+  return is_change(exchange) && exchange.route->role != Role::kNone;
+}
+
+// Whether the log may leave out the request: a request beyond a rate, or a refused change. A client
+// can cause any number of these.
+bool is_rationed(const Exchange& exchange, unsigned status) {
+  const bool is_refused = status >= 400 && status < kUnanswered;
+  return exchange.is_beyond_rate || (is_refused && is_change(exchange));
 }
 
 }  // namespace
@@ -25,15 +42,21 @@ bool changes_data(Method method) {
 asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchange& exchange) {
   if (connection_.draining) exchange.keep_alive = false;
   const bool has_body = request.method() != beast::http::verb::head;
-  const auto room = has_body ? server_.bodies().admit(exchange.response.body) : nullptr;
+  const auto room =
+      has_body ? server_.bodies().admit(exchange.response.body, network_of(exchange.client.address))
+               : nullptr;
   if (has_body && !room)
     exchange.response = no_room(server_.bodies().fits_alone(exchange.response.body), exchange.id);
   Response& response = exchange.response;
+  if (response.type == kProblemType && wants_page(request))
+    response = problem_page(std::move(response), request);
   if (response.events) exchange.keep_alive = false;  // the connection closes after the last event
   std::string head = response_head(
       response, {.request_id = exchange.id,
                  .keep_alive = exchange.keep_alive,
-                 .is_public_read = exchange.is_public_read && response.caching != Caching::kPrivate,
+                 .is_public_read = server_.options().is_read_by_pages && exchange.is_public_read &&
+                                   response.caching != Caching::kPrivate,
+                 .trusted_origin = exchange.trusted_origin,
                  .version = request.version(),
                  .is_encrypted = connection_.socket.is_encrypted()});
   const unsigned status = response.status;
@@ -42,7 +65,7 @@ asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchan
   std::uint64_t sent =
       co_await send_response(connection_, std::move(head), std::move(body), server_.pace());
   const bool lasts = response.events && has_body;
-  if (lasts && exchange.caller) server_.connections().lasts_for(connection_, *exchange.caller);
+  if (lasts) server_.lasts_while(connection_, exchange.caller, [] { return true; });
   if (lasts) sent = co_await send_events(connection_, *response.events, server_.pace().timeout);
   record(exchange, request, status, sent);
   is_at_end_ = sent >= size && (!exchange.keep_alive || connection_.draining);
@@ -54,14 +77,16 @@ void ResponseWriter::record(const Exchange& exchange, const RequestHeader& reque
   const auto& templates = server_.router().templates();
   const std::string_view route =
       exchange.route_template < templates.size() ? templates[exchange.route_template] : "-";
-  if (exchange.route != nullptr && changes_data(exchange.route->method))
-    audit(exchange, request, route, status);
+  const bool has_line =
+      !is_rationed(exchange, status) || server_.may_log_refusal(exchange.client.address);
+  if (has_line && is_audited(exchange)) audit(exchange, request, route, status);
   if (!server_.options().is_recorded) return;
   const std::chrono::duration<double> seconds = Connection::Clock::now() - exchange.start;
   const HttpDependencies& with = server_.dependencies();
   with.metrics.request(exchange.route_template, status, bytes, seconds.count());
+  if (!has_line && exchange.is_beyond_rate) return;
   const bool waits = with.access_log.access({.request_id = exchange.id,
-                                             .remote = exchange.client.address,
+                                             .remote = logged_address(exchange.client),
                                              .method = text(request.method_string()),
                                              .route = route,
                                              .target = text(request.target()),
@@ -72,12 +97,17 @@ void ResponseWriter::record(const Exchange& exchange, const RequestHeader& reque
   if (waits) asio::post(server_.io(), [&log = with.access_log] { log.flush(); });
 }
 
-// Writes the request to the audit log, which no setting disables.
+std::string ResponseWriter::logged_address(const Client& client) const {
+  return server_.options().shortens_addresses ? shortened(client.address) : client.address;
+}
+
+// Writes the request to the audit log, which no setting disables. If there are too many refused
+// requests, some of them are left out.
 void ResponseWriter::audit(const Exchange& exchange, const RequestHeader& request,
                            std::string_view route, unsigned status) const {
   const std::string token = exchange.caller ? exchange.caller->token.to_string() : "-";
   server_.dependencies().events.audit({.request_id = exchange.id,
-                                       .remote = exchange.client.address,
+                                       .remote = logged_address(exchange.client),
                                        .token = token,
                                        .method = text(request.method_string()),
                                        .route = route,

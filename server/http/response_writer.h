@@ -30,6 +30,7 @@ class ResponseWriter {
  private:
   void audit(const Exchange& exchange, const RequestHeader& request, std::string_view route,
              unsigned status) const;
+  std::string logged_address(const Client& client) const;
 
   Connection& connection_;
   HttpServer& server_;

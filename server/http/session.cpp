@@ -32,6 +32,7 @@ class Session {
     Exchange exchange;
     const ReadResult read = co_await reader_.read_header(parser, exchange);
     if (read == ReadResult::kClosed) co_return false;
+    if (read == ReadResult::kRejected) dispatcher_.count_error(exchange);
     if (read == ReadResult::kRead) {
       const bool is_answered = co_await dispatcher_.dispatch(parser, exchange);
       if (!is_answered) {
@@ -67,7 +68,8 @@ class Session {
     const RequestHeader header = request.base();
     const std::shared_ptr<Upgrade> upgrade = std::move(exchange.response.upgrade);
     connection_->never_expires();
-    if (exchange.caller) server_.connections().lasts_for(*connection_, *exchange.caller);
+    server_.lasts_while(*connection_, exchange.caller,
+                        [upgrade] { return upgrade->may_continue(); });
     reader_.release_buffer();
     // This variable has a name because g++ 12 destroys a braced temporary of a co_await twice.
     UpgradedConnection upgraded{connection_, std::move(request)};

@@ -25,6 +25,10 @@ class Upgrade {
   // Answers the upgrade request and serves the connection. Runs on the connection's strand. Returns
   // once no operation on the connection is pending.
   virtual asio::awaitable<void> serve(UpgradedConnection upgraded, HttpServer& server) = 0;
+
+  // Whether the client may still see what serve() sends. Otherwise the connection is asked to end.
+  // Called about twice a second on a worker thread, while serve() runs on another; may block.
+  virtual bool may_continue() { return true; }
 };
 
 }  // namespace vitrine::server

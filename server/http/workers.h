@@ -4,20 +4,20 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "server/http/admission_limit.h"
 #include "server/http/beast.h"
+#include "server/http/fair_turns.h"
 #include "server/messages/router.h"
 
 namespace vitrine::server {
 
 struct WorkerOptions {
-  // Number of threads for Executor::kWorker. Executor::kCompute has as many threads of its own.
+  // Number of threads for Executor::kWorker. Executor::kCompute has the same number of separate
+  // threads.
   unsigned threads = 1;
   unsigned waiting_threads = 0;       // additional threads for handlers that wait for other daemons
-  std::size_t max_computations = 64;  // computations that may run or wait at a time
+  std::size_t max_computations = 64;  // largest number of computations that run or wait
 };
 
 class Workers {
@@ -29,10 +29,14 @@ class Workers {
   tl::expected<AdmissionLimit::Pass, AdmissionLimit::Refusal> admit(Executor where,
                                                                     const std::string& address);
 
-  // Returns the executor for a task. Executor::kCompute runs tasks with equal targets one after the
-  // other.
-  asio::any_io_executor executor(Executor where, std::string_view target);
-  void stop() { pool_.stop(), computations_.stop(), devices_.stop(), disk_.stop(); }
+  // Waits until a computation of `owner` may run on the executor for Executor::kCompute; see
+  // FairTurns.
+  asio::awaitable<FairTurns::Turn> computing_turn(std::string owner, std::string target) {
+    return turns_->wait(std::move(owner), std::move(target));
+  }
+
+  asio::any_io_executor executor(Executor where);  // returns the executor for a task
+  void stop();
   void join() { pool_.join(), computations_.join(), devices_.join(), disk_.join(); }
 
  private:
@@ -43,7 +47,7 @@ class Workers {
   asio::thread_pool computations_;
   asio::thread_pool devices_{kDeviceThreads};
   asio::thread_pool disk_{kDiskThreads};
-  std::vector<asio::strand<asio::thread_pool::executor_type>> serial_;  // strands of computations_
+  const std::shared_ptr<FairTurns> turns_;  // turns on the threads of computations_
   const std::shared_ptr<AdmissionLimit> computation_limit_;  // one address gets at most a quarter
   const std::shared_ptr<AdmissionLimit> device_limit_ =
       std::make_shared<AdmissionLimit>(kMaxDeviceTasks, kMaxDeviceTasks);

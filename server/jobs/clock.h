@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current time in the unit of the catalogue's records.
+// Returns the current time in the unit of the catalogue's records.
 #pragma once
 
 #include <chrono>

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kBeat{500};
 constexpr std::chrono::seconds kLease{15};
 // How long a daemon's claim on a webhook call lasts. Afterwards, another daemon may make the call.
 constexpr std::chrono::minutes kWebhookTimeout{10};
-constexpr std::uint32_t kAtATime = 16;  // largest number of jobs that one search claims
+constexpr std::uint32_t kAtATime = 128;  // largest number of jobs that one search finds
 
 std::vector<JobKind> kinds_of(const TakenJobs& taken) {
   std::vector<JobKind> kinds;
@@ -103,23 +103,37 @@ void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   post(run);
 }
 
-// Ends a hopeless job as failed. Claims the job first, so that a daemon that still runs it can no
-// longer change it.
+// Ends a hopeless job: as done if its model was stored before the daemon died, otherwise as failed.
+// Claims the job first, so that a daemon that still runs it can no longer change it.
 void JobQueue::give_up(const SharedRun& run) {
   const auto taken = catalogue_.claim(run->job().id, {taken_.holder, kLease});
   if (!taken || !*taken) return lose(run);
+  const bool is_complete = (*taken)->model.has_value();
   {
     const std::scoped_lock lock(run->mutex_);
     run->status_.record = **taken;
-    run->status_.record.error = fmt::format(
-        "the daemon died {} times while running this job; see its log, then start the job again",
-        kMaxAttempts);
+    if (!is_complete) {
+      run->status_.record.error = fmt::format(
+          "the daemon died {} times while running this job; see its log, then start the job again",
+          kMaxAttempts);
+    }
   }
-  set_state(run, JobState::kFailed);
+  set_state(run, is_complete ? JobState::kDone : JobState::kFailed);
 }
 
 void JobQueue::post(const SharedRun& run) {
-  executor_of(executor_name(run->job())).post([this, run] { work(run); });
+  const JobRecord job = run->job();
+  const std::string name = executor_name(job);
+  if (!name.empty()) return executor_of(name).post([this, run] { work(run); });
+  without_scanner_.push(job.owner, run);
+  executor_of(name).post([this] { work(next_without_scanner()); });
+}
+
+// Returns the next job without a scanner. There is always one, because post() posts this call once
+// for each waiting job.
+JobQueue::SharedRun JobQueue::next_without_scanner() {
+  const std::scoped_lock lock(mutex_);
+  return *without_scanner_.take([](const SharedRun&) { return true; });
 }
 
 Expected<std::optional<JobRecord>> JobQueue::begun_by(
@@ -423,7 +437,7 @@ bool JobQueue::is_aside(const JobRun& run) {
   return run.job().state == JobState::kPaused && !run.is_at_work();
 }
 
-// Adds the paused jobs that this daemon runs, including those of scanners that it has acquired
+// Adds the paused jobs that this daemon must run, including those of scanners that it has acquired
 // recently. Each job is read again under the lock, because another daemon may have resumed or ended
 // it meanwhile.
 Expected<void> JobQueue::take_up_paused() {
@@ -487,7 +501,7 @@ void JobQueue::look_at(const SharedRun& other) {
     runs_.erase(id);
   } else if (const auto own = runs_.find(id); own != runs_.end()) {
     if (own->second != other) {
-      now = own->second->status();  // this daemon has claimed the job meanwhile
+      now = own->second->status();  // this daemon has claimed the job since the last update
     } else {
       if (!is_aside(*other) || taken_.has(**job)) return;
       lose(other);  // another daemon drives the scanner now

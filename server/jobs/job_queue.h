@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The queue of jobs and their states. Each scanner has a serial executor and at most one unfinished
-// job; jobs without a scanner share another executor. The catalogue stores all jobs, so that a
-// restarted daemon continues its jobs and several daemons share the work. A daemon claims a job and
-// renews its lease while it works. If another daemon claims the job, the first one abandons it.
+// job. Jobs without a scanner share another executor, in turns of their owners. The catalogue
+// stores all jobs, so that a restarted daemon continues its jobs and several daemons share the
+// work. A daemon claims a job and renews its lease while it works. If another daemon claims the
+// job, the first one abandons it.
 #pragma once
 
 #include <condition_variable>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "server/auth/fair_queue.h"
 #include "server/catalogue/jobs.h"
 #include "server/jobs/periodic_task.h"
 #include "server/jobs/serial_executor.h"
@@ -58,6 +60,7 @@ class JobRun {
   void report(std::string_view stage, double progress, std::optional<double> eta = {},
               std::string_view note = {});
   void made(const ModelId& model);
+  void repaired(std::string repairs);  // records JobRecord::repairs
   // Resets the progress to 0, because the work so far has to be repeated.
   void restart();
 
@@ -136,8 +139,8 @@ class JobQueue {
   bool may_notify(const JobId& id);
 
   // Continues the unfinished jobs of an earlier run of this daemon. Paused jobs stay paused. A job
-  // fails if it was running each of the last three times that a daemon died. After this call,
-  // beat() runs twice per second until stop().
+  // ends if it was running each of the last three times that a daemon died: as done if its model
+  // was stored, otherwise as failed. After this call, beat() runs twice per second until stop().
   Expected<void> start();
 
   // Renews the leases of the jobs that run in this daemon, receives cancellations, and looks for
@@ -194,13 +197,14 @@ class JobQueue {
  private:
   using SharedRun = std::shared_ptr<JobRun>;
 
-  // The caller of the functions up to the next empty line holds mutex_.
+  // The caller of the functions from here to the next empty line must hold mutex_.
   Expected<void> check_free(const std::string& scanner) const;
   Expected<SharedRun> unfinished(const JobId& id) const;
   SharedRun run_of(const std::string& scanner) const;
   void take_up(const JobRecord& job, std::uint64_t stops);
   void give_up(const SharedRun& run);
   void post(const SharedRun& run);
+  SharedRun next_without_scanner();
   // Returns false if another daemon has claimed the job.
   bool set_state(const SharedRun& run, JobState state);
   void lose(const SharedRun& run);
@@ -232,9 +236,10 @@ class JobQueue {
   mutable std::mutex mutex_;                       // guards the members below
   std::map<JobId, SharedRun> runs_;                // unfinished jobs
   std::map<JobId, std::weak_ptr<JobRun>> others_;  // jobs of other daemons that watch() returned
+  FairQueue<SharedRun> without_scanner_;           // jobs that wait for their shared executor
   std::vector<SharedRun> again_;  // jobs to claim when the catalogue is reachable again
-  // Expired leases of other daemons are respected until this time. While the catalogue is
-  // unreachable, no daemon can renew its leases.
+  // Until this time, expired leases of other daemons count as valid. Those daemons could not renew
+  // them while the catalogue was unreachable.
   std::chrono::steady_clock::time_point believes_from_{};
   std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;
   bool is_stopping_ = false;

@@ -94,6 +94,11 @@ void JobRun::made(const ModelId& model) {
   status_.record.model = model;
 }
 
+void JobRun::repaired(std::string repairs) {
+  const std::scoped_lock lock(mutex_);
+  status_.record.repairs = std::move(repairs);
+}
+
 void JobRun::restart() {
   const std::scoped_lock lock(mutex_);
   status_.record.progress = 0;

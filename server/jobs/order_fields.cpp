@@ -9,8 +9,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMaxTextBytes = 4096;
-
 }  // namespace
 
 void Fields::only(std::span<const std::string_view> known) {
@@ -22,11 +20,23 @@ void Fields::only(std::span<const std::string_view> known) {
 void Fields::text(const char* name, std::string& value) {
   const auto found = object_.find(name);
   if (found == object_.end()) return;
+  if (found->is_null()) return value.clear();
   const auto* given = found->get_ptr<const std::string*>();
-  if (given == nullptr || given->size() > kMaxTextBytes || !is_plain_text(*given)) {
-    return fault(name, fmt::format("one line of text of at most {} bytes", kMaxTextBytes));
-  }
+  if (given == nullptr || !is_line(*given))
+    return fault(name, fmt::format("one line of text of at most {} bytes", kMaxLineBytes));
   value = *given;
+}
+
+void Fields::paragraphs(const char* name, std::string& value) {
+  const auto found = object_.find(name);
+  if (found == object_.end()) return;
+  if (found->is_null()) return value.clear();
+  const auto* given = found->get_ptr<const std::string*>();
+  std::string text = given == nullptr ? "" : *given;
+  std::erase(text, '\r');
+  if (given == nullptr || !is_paragraphs(text))
+    return fault(name, fmt::format("text of at most {} bytes", kMaxParagraphBytes));
+  value = std::move(text);
 }
 
 void Fields::whole(const char* name, int low, int high, int& value) {
@@ -70,12 +80,15 @@ std::vector<std::string_view> metadata_names() {
 void read_texts(Fields& fields, ModelMetadata& metadata) {
   fields.text("title", metadata.title);
   fields.text("creator", metadata.creator);
-  fields.text("rights", metadata.rights);
+  fields.paragraphs("rights", metadata.rights);
   fields.text("licence", metadata.licence);
   for (const std::string_view element : kDublinCore) {
     const std::string name(element);
     std::string text = metadata.more[name];
-    fields.text(name.c_str(), text);
+    if (element == kDescription)
+      fields.paragraphs(name.c_str(), text);
+    else
+      fields.text(name.c_str(), text);
     metadata.more[name] = text;
   }
   std::erase_if(metadata.more, [](const auto& element) { return element.second.empty(); });

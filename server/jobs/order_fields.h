@@ -31,7 +31,9 @@ class Fields {
       : object_(object), prefix_(std::move(prefix)), faults_(faults) {}
 
   void only(std::span<const std::string_view> known);  // reports each member not in `known`
-  void text(const char* name, std::string& value);
+  void text(const char* name, std::string& value);     // null makes the text empty (RFC 7396)
+  // Reads a text that may have several paragraphs. Carriage returns are left out.
+  void paragraphs(const char* name, std::string& value);
   void whole(const char* name, int low, int high, int& value);
   void flag(const char* name, bool& value);
 
@@ -71,8 +73,8 @@ tl::expected<Order, FieldFaults> order_or_faults(Order order, FieldFaults faults
   return order;
 }
 
-// Read fields that several requests have in common: "bits" and "metadata". If "bits" is 0 or
-// "auto", the number of bits is chosen for the mesh.
+// These functions read fields that several requests have in common: "bits" and "metadata". If
+// "bits" is 0 or "auto", the number of bits is chosen for the mesh.
 void read_bits(Fields& fields, const nlohmann::json& body, int& bits);
 void read_metadata(Fields& fields, const nlohmann::json& body, ModelMetadata& metadata,
                    FieldFaults& faults);

@@ -4,11 +4,13 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "codec/format/manifest.h"
 #include "codec/format/signature.h"
+#include "server/config/base64.h"
 #include "server/jobs/clock.h"
 #include "server/jobs/job_claim.h"
 #include "server/jobs/retry_while_unreachable.h"
@@ -45,13 +47,28 @@ Expected<Bytes> read_all(const FileDescriptor& file) {
 
 }  // namespace
 
-JobRecord PublishJobs::job_for(const ModelOrder& order) {
+std::string upload_name(std::string_view metadata) {
+  constexpr std::string_view kKey = "filename ";
+  constexpr std::size_t kMost = 1'024;  // bytes in Base64
+  while (!metadata.empty()) {
+    std::string_view pair = metadata.substr(0, metadata.find(','));
+    metadata.remove_prefix(std::min(pair.size() + 1, metadata.size()));
+    pair.remove_prefix(std::min(pair.find_first_not_of(' '), pair.size()));
+    if (!pair.starts_with(kKey)) continue;
+    const std::string_view value = pair.substr(kKey.size());
+    return value.size() > kMost ? std::string() : decode_base64(value).value_or("");
+  }
+  return {};
+}
+
+JobRecord PublishJobs::job_for(const ModelOrder& order, const TokenId& owner) {
   JobRecord job;
   job.id = JobId::generate();
   job.kind = JobKind::kPublish;
   job.parameters = to_json_text(order);
   job.created = now_in_milliseconds();
   job.webhook = order.webhook;
+  job.owner = owner.to_string();
   return job;
 }
 
@@ -104,17 +121,21 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
   const bool is_built = n > 0 && is_pmesh(std::span(prefix).first(static_cast<std::size_t>(n)));
   const char* stage = is_built ? "verifying" : "building";
   run.report(stage, 0);
+  const auto upload = needs_.uploads.find(order.upload);
   BuildChild child;
   const Reaction stop(run, [&child] { child.stop(); });
   const BuildOrder how{.bits = order.bits,
                        .placement = order.placement,
                        .z_is_up = order.z_is_up,
                        .unit = order.unit,
+                       .name = upload ? upload_name(upload->metadata) : std::string(),
                        .folder = needs_.data,
                        .program = needs_.program};
-  auto pmesh = child.build(
+  auto built = child.build(
       file, how, [&](std::string_view, double done) { run.report(stage, kChildDone * done); });
-  return pmesh && is_built ? read_all(file) : std::move(pmesh);
+  if (!built) return tl::unexpected(built.error());
+  run.repaired(std::move(built->repairs));
+  return is_built ? read_all(file) : std::move(built->file);
 }
 
 }  // namespace vitrine::server

@@ -21,12 +21,17 @@ struct PublishDependencies {
   std::filesystem::path program = "/proc/self/exe";  // see BuildOrder::program
 };
 
+// Returns the file name in an upload's metadata, or an empty string if there is none. Metadata are
+// pairs of a key and a Base64 value, separated by commas (tus 1.0, Upload-Metadata). Clients state
+// the name under the key "filename".
+std::string upload_name(std::string_view metadata);
+
 class PublishJobs {
  public:
   explicit PublishJobs(const PublishDependencies& needs) : needs_(needs) {}
 
-  // Creates the job for an order. The caller adds it to the queue.
-  static JobRecord job_for(const ModelOrder& order);
+  // Creates the job for an order of an upload by `owner`. The caller adds it to the queue.
+  static JobRecord job_for(const ModelOrder& order, const TokenId& owner);
 
   // Runs a job. Removes the upload if the job succeeds. Otherwise the upload stays for another try.
   Expected<JobEnd> work(JobRun& run);
@@ -36,6 +41,7 @@ class PublishJobs {
 
  private:
   Expected<Publication> make(JobRun& run, const ModelOrder& order);
+  // Returns the .pmesh file, and records in `run` what was repaired.
   Expected<std::vector<std::uint8_t>> build(JobRun& run, const ModelOrder& order,
                                             const FileDescriptor& file);
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
@@ -11,6 +13,7 @@ namespace {
 
 constexpr const char* kFileName = "turn";
 constexpr std::uint64_t kMostBytes = 64;
+constexpr std::string_view kRemoved = ".removed-";  // prefix of folders that are being deleted
 
 }  // namespace
 
@@ -42,6 +45,30 @@ Expected<void> begin_revolution(const std::filesystem::path& folder,
   return write_file_atomically(
       folder / kFileName,
       {reinterpret_cast<const std::uint8_t*>(revolution.data()), revolution.size()});
+}
+
+Expected<void> remove_revolution(const std::filesystem::path& folder) {
+  const auto removed = folder.parent_path() / (std::string(kRemoved) + folder.filename().string());
+  std::error_code error;
+  std::filesystem::rename(folder, removed, error);
+  if (!error) {
+    if (auto synced = sync_folder(folder.parent_path()); !synced) return synced;
+    std::filesystem::remove_all(removed, error);
+  }
+  if (!error) return {};
+  return fail(ErrorCode::kIo,
+              fmt::format("cannot delete the folder {}: {}; check its owner and mode",
+                          folder.string(), error.message()));
+}
+
+void sweep_removed_revolutions(const std::filesystem::path& scans) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(scans, error), end; !error && at != end;
+       at.increment(error)) {
+    std::error_code ignored;
+    if (at->path().filename().string().starts_with(kRemoved))
+      std::filesystem::remove_all(at->path(), ignored);
+  }
 }
 
 }  // namespace vitrine::server

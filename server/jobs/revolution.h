@@ -19,4 +19,11 @@ Expected<bool> holds_revolution(const std::filesystem::path& folder, const std::
 // Empties the folder and marks it with `revolution`.
 Expected<void> begin_revolution(const std::filesystem::path& folder, const std::string& revolution);
 
+// Deletes the folder of a scan. After a crash, either the whole folder is there or none of its
+// files is. Fails with kIo.
+Expected<void> remove_revolution(const std::filesystem::path& folder);
+
+// Deletes what an interrupted remove_revolution() has left in `scans`, the folder of all scans.
+void sweep_removed_revolutions(const std::filesystem::path& scans);
+
 }  // namespace vitrine::server

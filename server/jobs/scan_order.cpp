@@ -57,7 +57,8 @@ void read_scan(Fields& fields, const Json& body, ScanOrder& order) {
   fields.flag("keep_frames", order.request.keep_frames);
 }
 
-// The allowed fields: kOfScan for new scans only, kOfModel for scans and rebuilds.
+// Names of the allowed fields: kOfScan only for a new scan, kOfModel for a new scan and for a
+// rebuild.
 constexpr std::string_view kOfScan[] = {"scanner", "steps", "exposure", "keep_frames"};
 constexpr std::string_view kOfModel[] = {"calibration",   "stripe",       "sampling", "length",
                                          "largest_angle", "largest_hole", "bits",     "placement",
@@ -89,6 +90,7 @@ tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const Json& body,
   ScanOrder order = scan;
   fields.only(names({kOfModel}));
   read_model(fields, body, order, faults);
+  order.is_public_as_before = order.is_public_as_before && !body.contains("publish");
   return order_or_faults(std::move(order), std::move(faults));
 }
 
@@ -114,6 +116,7 @@ tl::expected<ScanOrder, FieldFaults> parse_kept_order(const Json& kept) {
   fields.only(names({kOfScan, kOfModel}));
   read_scan(fields, kept, order);
   read_model(fields, kept, order, faults);
+  order.is_public_as_before = !kept.contains("publish");
   return order_or_faults(std::move(order), std::move(faults));
 }
 
@@ -129,8 +132,8 @@ std::string to_json_text(const ScanOrder& order) {
                {"largest_hole", surface.largest_hole},
                {"bits", order.bits},
                {"placement", kPlacementNames[static_cast<std::size_t>(order.placement)]},
-               {"metadata", to_json(order.metadata)},
-               {"publish", order.is_public}};
+               {"metadata", to_json(order.metadata)}};
+  if (!order.is_public_as_before) json["publish"] = order.is_public;
   if (!order.webhook.empty()) json["webhook"] = order.webhook;
   if (order.request.exposure_us) json["exposure"] = *order.request.exposure_us;
   if (order.calibration > 0) json["calibration"] = order.calibration;

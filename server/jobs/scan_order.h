@@ -25,7 +25,10 @@ struct ScanOrder {
 
   ModelMetadata metadata;
   bool is_public = false;  // whether the model is published at once; else it is a draft
-  std::string webhook;     // URL to call when the job ends; empty: none
+  // Only a rebuild: whether the model is published if, by then, visitors see all of the scan's
+  // model.
+  bool is_public_as_before = false;
+  std::string webhook;  // URL to call when the job ends; empty: none
 };
 
 inline constexpr int kLeastPoses = 3, kMostPoses = 200;
@@ -40,7 +43,8 @@ struct CalibrationOrder {
 tl::expected<ScanOrder, FieldFaults> parse_scan_order(const nlohmann::json& body);
 
 // Parses a request to rebuild the mesh of a stored scan. Options not given keep the values of
-// `scan`. Options of the scanner cannot be changed.
+// `scan`. Options of the scanner cannot be changed. If the request says whether to publish, the
+// order is not public "as before".
 tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const nlohmann::json& body,
                                                            const ScanOrder& scan);
 

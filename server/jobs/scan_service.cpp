@@ -11,16 +11,19 @@
 
 #include "acquisition/session/reprocess.h"
 #include "codec/export/write_mesh.h"
+#include "server/catalogue/private_file.h"
 #include "server/jobs/clock.h"
 #include "server/jobs/job_claim.h"
 #include "server/jobs/retry_while_unreachable.h"
 #include "server/jobs/revolution.h"
 #include "server/sandbox/build_child.h"
+#include "server/store/published_model.h"
 
 namespace vitrine::server {
 namespace {
 
 constexpr double kMeshed = 0.85, kBuilt = 0.99;  // progress after meshing and after building
+constexpr std::chrono::seconds kLaserWatch{1};   // interval of watch_manual_laser()
 constexpr std::size_t kViews = 4;                // largest number of views of ended scans in memory
 
 JobRecord new_job(JobKind kind, const std::string& scanner) {
@@ -130,21 +133,27 @@ ScanService::ScanService(const ScanServiceOptions& options,
       queue_(
           options.jobs, options.events, [this](JobRun& run) { return work(run); }, options.taken) {
   for (const auto& backend : backends_)
-    stations_.push_back(std::make_unique<ScannerStation>(*backend, queue_, options.idle_timeout));
+    stations_.push_back(
+        std::make_unique<ScannerStation>(*backend, queue_, options.idle_timeout, options.now));
 }
 
 Expected<void> ScanService::start() {
   std::error_code error;
   const std::filesystem::path scans = options_.data / "scans";
-  std::filesystem::create_directories(scans, error);
+  create_private_folder(scans, error);
   if (error) {
     return fail(ErrorCode::kIo,
                 fmt::format("cannot make the folder {}: {}; check its owner and mode",
                             scans.string(), error.message()));
   }
+  sweep_removed_revolutions(scans);
   if (auto recalled = recall(); !recalled) return recalled;
   for (const auto& station : stations_)
     station->look_for_it();
+  laser_watch_.emplace(kLaserWatch, options_.events, [this] {
+    for (const auto& station : stations_)
+      station->watch_manual_laser();
+  });
   return queue_.start();
 }
 
@@ -180,6 +189,7 @@ void ScanService::recall(JobRecord job) {
 
 void ScanService::stop() {
   const std::scoped_lock one(stopping_);
+  laser_watch_.reset();
   for (const auto& station : stations_)
     station->close_after_all();
   queue_.stop();
@@ -291,6 +301,15 @@ Expected<void> ScanService::check_unused(const ScanEntry& scan) {
               fmt::format("job {} works on the scan; wait for its end", (*job)->id.to_string()));
 }
 
+Expected<void> ScanService::remove_data(const ScanEntry& scan) {
+  if (auto unused = check_unused(scan); !unused) return unused;
+  if (auto here = check_revolution(scan); !here) return here;
+  auto removed = remove_revolution(folder_of(scan.id));
+  const std::scoped_lock lock(mutex_);
+  views_.erase(scan.id);
+  return removed;
+}
+
 Expected<void> ScanService::pause(const ScanEntry& scan) {
   const auto paused = queue_.pause(scan.job);
   return paused ? Expected<void>{} : tl::unexpected(paused.error());
@@ -362,6 +381,8 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   auto view = station->backend().view(folder_of(scan.id));
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
+  // Checks again under the lock, because remove_data() deletes the revolution before it locks.
+  if (auto here = check_revolution(scan); !here) return tl::unexpected(here.error());
   if (views_.size() >= kViews) views_.erase(views_.begin());
   views_[scan.id] = *view;
   return view;
@@ -373,10 +394,11 @@ Expected<void> ScanService::check_revolution(const ScanEntry& scan) const {
   if (*is_here) return {};
   return fail(
       ErrorCode::kState,
-      fmt::format("the folder scans/{} is missing from the data folder, or another daemon measured "
-                  "the scan into its own; let that daemon drive the scanner, restore the "
-                  "folder from a backup, or scan again",
-                  scan.id.to_string()));
+      fmt::format(
+          "the folder scans/{} was deleted from the data folder, or another daemon measured "
+          "the scan into its own; let that daemon drive the scanner, restore the "
+          "folder from a backup, or scan again",
+          scan.id.to_string()));
 }
 
 // Ensures that this daemon's folder holds the scan's revolution. If another daemon measured the
@@ -417,6 +439,13 @@ void ScanService::keep(const ScanEntry& entry, const JobRecord& by) {
 }
 
 Expected<JobEnd> ScanService::work(JobRun& run) {
+  auto end = work_on_kind(run);
+  const auto model = run.job().model;
+  if (end && model && options_.when_added) options_.when_added(*model);
+  return end;
+}
+
+Expected<JobEnd> ScanService::work_on_kind(JobRun& run) {
   const JobRecord job = run.job();
   if (job.kind == JobKind::kPublish) return options_.publishing(run);
   ScannerStation* station = scanner(job.scanner);
@@ -425,6 +454,7 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
                 fmt::format("there is no scanner {}; name its rig.json in the setting scanners",
                             job.scanner));
   }
+  station->switch_manual_laser_off();
   if (job.kind == JobKind::kReprocess) return reprocess(run, *station);
   station->backend().allow(run.stops_known());
   auto end = job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
@@ -461,8 +491,8 @@ Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station)
 Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
   const auto order = stored_order(run.job().parameters);
   if (!order) return tl::unexpected(order.error());
-  // Checks that this daemon has the scan's steps. The request may have come to another daemon, or
-  // another daemon may have measured the scan again.
+  // Checks that this daemon has the scan's steps. They are missing if the request came to the wrong
+  // daemon, or if another daemon has measured the scan again.
   const auto scan = scan_of(run);
   if (!scan) return tl::unexpected(scan.error());
   if (auto here = check_revolution(*scan); !here) return tl::unexpected(here.error());
@@ -496,7 +526,7 @@ Expected<JobEnd> ScanService::calibrate(JobRun& run, ScannerStation& station) {
 Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
                                          const TriangleMesh& mesh) {
   run.report("building", kMeshed);
-  const auto file = write_mesh(mesh, MeshFormat::kPly, "mm");
+  const auto file = write_mesh(mesh, MeshFormat::kPly, {.unit = "mm", .normals = Normals::kNone});
   if (!file) return tl::unexpected(file.error());
   BuildChild child;
   const Reaction stop(run, [&child] { child.stop(); });
@@ -505,41 +535,63 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
                          .z_is_up = true,
                          .folder = options_.data,
                          .program = options_.program};
-  const auto pmesh = child.build(*file, build, [&](std::string_view, double done) {
+  const auto built = child.build(*file, build, [&](std::string_view, double done) {
     run.report("building", std::lerp(kMeshed, kBuilt, done));
   });
-  if (!pmesh) return tl::unexpected(pmesh.error());
-  const auto state = order.is_public ? ModelState::kPublished : ModelState::kDraft;
+  if (!built) return tl::unexpected(built.error());
+  run.repaired(built->repairs);
+  const std::vector<std::uint8_t>& pmesh = built->file;
+  const auto is_public = retry_while_unreachable(run, [&] { return may_be_public(run, order); });
+  if (!is_public) return tl::unexpected(is_public.error());
   const auto model = retry_while_unreachable(run, [&] {
-    return publish(options_.store, options_.catalogue, *pmesh, order.metadata,
-                   {.state = state,
+    return publish(options_.store, options_.catalogue, pmesh, order.metadata,
+                   {.state = *is_public ? ModelState::kPublished : ModelState::kDraft,
                     .id = model_id_of(run.job()),
                     .quota = options_.quota,
                     .by = claim_of(run.job())});
   });
   if (!model) return tl::unexpected(model.error());
   run.made(model->id);
-  const auto shown = retry_while_unreachable(run, [&] { return show(run, order, model->id); });
+  const auto manifest = parse_header(pmesh);
+  if (!manifest) return tl::unexpected(manifest.error());
+  const BuiltModel shown_model{model->id, geometry_hash(*manifest)};
+  const auto shown =
+      retry_while_unreachable(run, [&] { return show(run, *is_public, shown_model); });
   return shown ? Expected<JobEnd>(JobEnd::kDone) : tl::unexpected(shown.error());
 }
 
-// Makes `model` the scan's model.
-Expected<void> ScanService::show(const JobRun& run, const ScanOrder& order, const ModelId& model) {
+// Whether to publish the model that the job has made. The scan's model may have been withdrawn or
+// limited since the order.
+Expected<bool> ScanService::may_be_public(const JobRun& run, const ScanOrder& order) {
+  const auto entry = options_.jobs.find_scan(run.job().scan.value_or(ScanId()));
+  if (!entry) return tl::unexpected(entry.error());
+  if (!*entry || !(*entry)->model) return order.is_public;
+  const auto before = options_.catalogue.find(*(*entry)->model);
+  if (!before) return tl::unexpected(before.error());
+  if (!*before) return order.is_public;
+  if ((*before)->public_part) return false;
+  return order.is_public ||
+         (order.is_public_as_before && (*before)->state == ModelState::kPublished);
+}
+
+// Makes `built` the scan's model.
+Expected<void> ScanService::show(const JobRun& run, bool is_public, const BuiltModel& built) {
   auto entry = options_.jobs.find_scan(run.job().scan.value_or(ScanId()));
   if (!entry) return tl::unexpected(entry.error());
   if (!*entry) return {};
   auto& shown = (*entry)->model;
   // Hides the scan's previous model, because visitors see only one model of a scan.
-  if (order.is_public && shown && *shown != model) {
+  if (is_public && shown && *shown != built.model) {
     auto hidden = options_.catalogue.set_state(*shown, ModelState::kDraft);
     if (!hidden) return hidden;
   }
-  if (!order.is_public && shown) {  // a draft does not replace the model that visitors see
+  if (!is_public && shown) {  // a draft does not replace the model that visitors see
     const auto before = options_.catalogue.find(*shown);
     if (!before) return tl::unexpected(before.error());
     if (*before && (*before)->state == ModelState::kPublished) return {};
   }
-  shown = model;
+  shown = built.model;
+  (*entry)->built = built.geometry;
   return options_.jobs.update(**entry, claim_of(run.job()));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scanners with their scans and calibrations, as the handlers of the API use them. Turns orders
-// into jobs, and scans into models. A scan consists of a folder DATA/scans/ID, a row in the
-// catalogue, and a view in memory while it runs.
+// Gives the handlers of the API access to the scanners, scans and calibrations. Makes jobs from
+// orders, and models from scans. A scan consists of a folder DATA/scans/ID, a row in the catalogue,
+// and a view in memory while it runs.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/jobs/job_queue.h"
+#include "server/jobs/periodic_task.h"
 #include "server/jobs/scanner_claims.h"
 #include "server/jobs/scanner_station.h"
 #include "server/store/object_store.h"
@@ -41,10 +42,14 @@ struct ScanServiceOptions {
   Quota* quota = nullptr;                            // limits the bytes of models; null: no limit
   TakenJobs taken = {};                              // the jobs that this daemon runs
   const ScannerClaims* claims = nullptr;             // null: this daemon drives every scanner
+  // Called by a job that has added a model to the catalogue, before the job ends.
+  std::function<void(const ModelId&)> when_added = {};
+  // Returns the time that limits how long a laser stays on that an operator has lit.
+  std::function<ScannerStation::Clock::time_point()> now = ScannerStation::Clock::now;
 };
 
 // Thread-safe. Errors: kState if the call is not possible now, kBadInput if an idempotency key was
-// used for another request, kIo.
+// used for another request, kIo if the catalogue, the disk or a device fails.
 class ScanService {
  public:
   ScanService(const ScanServiceOptions& options,
@@ -61,7 +66,7 @@ class ScanService {
   std::vector<ScannerStatus> scanners();
   ScannerStation* scanner(std::string_view name);  // null if there is no scanner of that name
   std::vector<std::string> names() const;          // scanners configured in this daemon
-  // These return the results of the functions of the same names in ScannerClaims.
+  // Return the results of the functions of the same names in ScannerClaims.
   std::optional<std::string> address_of(const std::string& name) const;
   std::map<std::string, std::vector<std::string>> others() const;
   // Returns a new picture, or, while a scan runs, the latest picture of the scan.
@@ -72,10 +77,14 @@ class ScanService {
   // Starts a scan. `order.scanner` must be the name of a configured scanner.
   Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<IdempotencyKey>& key);
   // Starts a job that makes another model from a scan. The scan must have steps, and no job may use
-  // it. If the order needs the scan's pictures, they must have been kept. Does not change the
-  // scan's state.
+  // it. If the order needs the scan's pictures, they must have been kept. The new model
+  // is a draft if visitors see only some levels of the scan's model, because its levels differ.
+  // Does not change the scan's state.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<IdempotencyKey>& key);
+  // Deletes what was measured: profiles, points and kept pictures. The scan's record and its models
+  // stay. No job may use the scan.
+  Expected<void> remove_data(const ScanEntry& scan);
   Expected<void> pause(const ScanEntry& scan);
   // Continues a paused scan. Continues a failed scan with a new job.
   Expected<void> resume(const ScanEntry& scan);
@@ -97,6 +106,7 @@ class ScanService {
   };
 
   Expected<JobEnd> work(JobRun& run);
+  Expected<JobEnd> work_on_kind(JobRun& run);
   Expected<ScanEntry> scan_of(const JobRun& run);
   Expected<JobEnd> work_on_scan(JobRun& run, ScannerStation& station);
   Expected<void> settle_revolution(JobRun& run, ScanEntry& scan);
@@ -104,9 +114,15 @@ class ScanService {
   Expected<JobEnd> reprocess(JobRun& run, ScannerStation& station);
   Expected<JobEnd> calibrate(JobRun& run, ScannerStation& station);
   Expected<JobEnd> make_model(JobRun& run, const ScanOrder& order, const TriangleMesh& mesh);
-  Expected<void> show(const JobRun& run, const ScanOrder& order, const ModelId& model);
+  // A model, and the hash of the geometry that was built for it.
+  struct BuiltModel {
+    ModelId model;
+    Sha256 geometry{};
+  };
+  Expected<bool> may_be_public(const JobRun& run, const ScanOrder& order);
+  Expected<void> show(const JobRun& run, bool is_public, const BuiltModel& built);
   std::filesystem::path folder_of(const ScanId& id) const;
-  std::uint64_t stops_of(const std::string& name);  // emergency stops of the scanner
+  std::uint64_t stops_of(const std::string& name);  // number of emergency stops of the scanner
   Expected<ScanInfo> with_job(ScanEntry entry);
   void keep(const ScanEntry& entry, const JobRecord& by);
   Expected<void> recall();
@@ -125,6 +141,7 @@ class ScanService {
 
   JobQueue queue_;
   std::vector<std::unique_ptr<ScannerStation>> stations_;
+  std::optional<PeriodicTask> laser_watch_;  // calls watch_manual_laser() of the stations
 };
 
 }  // namespace vitrine::server

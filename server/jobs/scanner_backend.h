@@ -21,7 +21,8 @@ namespace vitrine::server {
 struct ScannerIdentity {
   acquisition::CameraIdentity camera;
   acquisition::BoardIdentity board;
-  std::optional<int> calibration;  // number of the newest that fits the camera; nullopt: none
+  // Number of the newest calibration that fits the camera; nullopt: none.
+  std::optional<int> calibration;
 };
 
 struct ScanProgress {
@@ -98,6 +99,9 @@ class ScannerBackend {
   virtual Expected<ScannerIdentity> identify() = 0;
   virtual Expected<void> jog(double degrees) = 0;  // turns the table by an angle
   virtual Expected<void> laser(bool on) = 0;
+  // Restarts the watchdog's time, so that the laser stays on. Fails, and switches nothing on, if
+  // the board is not open.
+  virtual Expected<void> keep_laser() = 0;
   // Takes a picture. Uses only the camera, so it also works after an emergency stop.
   virtual Expected<acquisition::Frame> picture() = 0;
 
@@ -114,11 +118,14 @@ class ScannerBackend {
 
   virtual const std::string& name() const = 0;
 
+  // Returns the state of laser and motor without using a device.
+  virtual acquisition::BoardPower power() const = 0;
+
   // Turns laser and motor off at once. The board stays unused until allow() is called.
   virtual void emergency_stop() noexcept = 0;
   virtual std::uint64_t stops() const noexcept = 0;  // number of emergency stops so far
-  // Allows commands again, unless there were more than `stops` emergency stops. A stop of which the
-  // client does not know thus stays in force.
+  // Allows commands again, unless there were more than `stops` emergency stops. So a stop that the
+  // client does not know of stays in force.
   virtual void allow(std::uint64_t stops) noexcept = 0;
 
   // Rebuilds the mesh of a stored scan that no job uses.
@@ -128,7 +135,8 @@ class ScannerBackend {
 
   // Returns all calibrations, the newest first.
   virtual Expected<std::vector<CalibrationSummary>> calibrations() = 0;
-  // Return the report as JSON and the plot as SVG, or nullopt if no calibration has this number.
+  // These functions return the report as JSON and the plot as SVG, or nullopt if no calibration has
+  // this number.
   virtual Expected<std::optional<std::string>> calibration_report(int number) = 0;
   virtual Expected<std::optional<std::string>> residual_plot(int number) = 0;
 };

@@ -21,14 +21,14 @@ namespace vitrine::server {
 // Thread-safe.
 class ScannerClaims {
  public:
-  // `address`: ScannerDriver::address. The catalogue must outlive this object.
+  // `address` has the form of ScannerDriver::address. The catalogue must outlive this object.
   ScannerClaims(JobCatalogue& catalogue, Log events, Lease lease, std::string address);
   // Acquires the scanners in `names` that no other daemon drives. `names` are all scanners
   // configured in this daemon. Then runs beat() every two seconds.
   void start(std::vector<std::string> names);
   // Renews the leases on the held scanners and acquires scanners that have become free.
   void beat();
-  // Stops renewing and acquiring.
+  // Stops renewing leases and acquiring scanners.
   void stop() { lease_renewal_.reset(); }
 
   // Succeeds if this daemon may command the scanner now. Otherwise returns kIo with the reason.
@@ -65,8 +65,8 @@ class ScannerClaims {
   std::vector<std::string> names_;
   std::map<std::string, HeldScanner> held_;
   std::vector<ScannerDriver> drivers_;  // drivers as last read from the catalogue
-  // Other daemons' leases are respected until this time, even if they have expired. While the
-  // catalogue is unreachable, no daemon can renew its leases.
+  // Until this time, expired leases of other daemons count as valid. Those daemons could not renew
+  // them while the catalogue was unreachable.
   Clock believes_from_{};
 
   std::optional<PeriodicTask> lease_renewal_;

@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 
 namespace vitrine::server {
 namespace {
 
-// Longest time that status() waits for the first look.
+// Longest time that status() waits for the result of the first search for the scanner.
 constexpr std::chrono::seconds kLookTimeout{3};
 constexpr std::string_view kStopped =
     "stopped by the operator; make sure that it is safe, then resume";
@@ -30,8 +31,9 @@ auto ScannerStation::caught(Task task) -> decltype(task()) try {
 }
 
 ScannerStation::ScannerStation(ScannerBackend& backend, JobQueue& jobs,
-                               std::chrono::milliseconds idle_timeout)
-    : backend_(backend), jobs_(jobs) {
+                               std::chrono::milliseconds idle_timeout,
+                               std::function<Clock::time_point()> now)
+    : backend_(backend), jobs_(jobs), now_(std::move(now)) {
   jobs_.executor(name()).when_idle(idle_timeout, [this] { backend_.close(); });
 }
 
@@ -50,13 +52,14 @@ void ScannerStation::look() {
 }
 
 void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
-  if (!seen && seen.error().code == ErrorCode::kState) return;  // stopped, not unreachable
+  // KState stands for an emergency stop; the scanner is still reachable then.
+  if (!seen && seen.error().code == ErrorCode::kState) return;
   const std::scoped_lock lock(mutex_);
   if (seen) identity_ = *seen;
   problem_ = seen ? "" : seen.error().message;
 }
 
-// Looks for the scanner again, because it may have been connected. Only one look runs at a time,
+// Looks for the scanner again, because it may have been connected. Only one search runs at a time,
 // and none while the scanner has an unfinished job.
 void ScannerStation::look_again() {
   if (is_looking_.exchange(true)) return;
@@ -70,8 +73,9 @@ void ScannerStation::look_again() {
 ScannerStatus ScannerStation::status() {
   const auto job = jobs_.job_of(name());
   if (!job && looked_.valid())
-    looked_.wait_for(kLookTimeout);  // only without a job, because a job may delay the look
-  ScannerStatus status{.name = name()};
+    // Does not wait if there is a job, because the job may delay the search.
+    looked_.wait_for(kLookTimeout);
+  ScannerStatus status{.name = name(), .power = backend_.power()};
   {
     const std::scoped_lock lock(mutex_);
     status.identity = identity_;
@@ -83,6 +87,8 @@ ScannerStatus ScannerStation::status() {
   } else if (!status.problem.empty()) {
     status.state = ScannerState::kUnreachable;
     look_again();
+  } else if (status.power.laser == acquisition::LaserState::kUnknown) {
+    look_again();  // opening the board switches its laser and motor off
   }
   return status;
 }
@@ -108,11 +114,78 @@ auto ScannerStation::command(Action action) -> decltype(action()) {
 }
 
 Expected<void> ScannerStation::jog(double degrees) {
-  return command([&] { return backend_.jog(degrees); });
+  return command([&] {
+    auto done = backend_.jog(degrees);
+    forget_laser();  // because the laser is off after a motion, and after an error
+    return done;
+  });
 }
 
-Expected<void> ScannerStation::laser(bool on) {
-  return command([&] { return backend_.laser(on); });
+Expected<void> ScannerStation::switch_laser_on(LaserPermit permit) {
+  return command([&]() -> Expected<void> {
+    {
+      const std::scoped_lock lock(mutex_);
+      lit_ = LitLaser{now_() + kLongestLit, permit};
+    }
+    auto done = backend_.laser(true);
+    if (!done) forget_laser();
+    return done;
+  });
+}
+
+Expected<void> ScannerStation::switch_laser_off() {
+  return command([&] {
+    auto done = backend_.laser(false);
+    forget_laser();  // even after an error, which closes the devices
+    return done;
+  });
+}
+
+std::optional<ScannerStation::Clock::time_point> ScannerStation::laser_end() {
+  const std::scoped_lock lock(mutex_);
+  return lit_ ? std::optional(lit_->end) : std::nullopt;
+}
+
+void ScannerStation::forget_laser() {
+  const std::scoped_lock lock(mutex_);
+  lit_.reset();
+}
+
+void ScannerStation::switch_manual_laser_off() {
+  if (!laser_end()) return;
+  const auto off = caught([this] { return backend_.laser(false); });
+  if (!off) backend_.close();  // which switches the laser off, or has the guardian do so
+  forget_laser();
+}
+
+void ScannerStation::keep_laser_or_put_it_out() {
+  const auto end = laser_end();
+  if (!end) return;
+  if (now_() >= *end) return switch_manual_laser_off();
+  if (!caught([this] { return backend_.keep_laser(); })) forget_laser();
+}
+
+void ScannerStation::watch_manual_laser() {
+  std::optional<LitLaser> lit;
+  {
+    const std::scoped_lock lock(mutex_);
+    lit = lit_;
+  }
+  if (!lit) return;
+  if (!lit->permit()) {
+    const std::scoped_lock lock(mutex_);
+    if (lit_ && lit_->end == lit->end) lit_->end = lit->end = std::min(lit->end, now_());
+  }
+  if (now_() >= lit->end + kLaserGrace) {
+    forget_laser();
+    return backend_.emergency_stop();
+  }
+  if (is_tending_.exchange(true)) return;
+  const auto posted = jobs_.post_command(name(), [this] {
+    keep_laser_or_put_it_out();
+    is_tending_ = false;
+  });
+  if (!posted) is_tending_ = false;
 }
 
 Expected<acquisition::Frame> ScannerStation::picture() {
@@ -126,6 +199,7 @@ Expected<acquisition::Frame> ScannerStation::picture() {
 
 void ScannerStation::stop() {
   backend_.emergency_stop();  // first, because nothing may delay it
+  forget_laser();
   const auto job = jobs_.job_of(name());
   if (!job) return;
   const bool can_be_resumed = job->record.kind == JobKind::kScan;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -18,31 +20,48 @@ enum class ScannerState : std::uint8_t { kIdle, kBusy, kUnreachable };
 struct ScannerStatus {
   std::string name;
   ScannerState state = ScannerState::kIdle;
-  std::optional<ScannerIdentity> identity;  // as last seen; nullopt if never seen
+  std::optional<ScannerIdentity> identity;  // identity as last seen; nullopt if never seen
   std::optional<ScanId> scan;               // the running or paused scan
   std::string problem;                      // why the scanner is unreachable
+  acquisition::BoardPower power;            // state of laser and motor
 };
+
+// Returns whether a laser that an operator has switched on may stay on. May block, and must be
+// thread-safe.
+using LaserPermit = std::function<bool()>;
+
+// A laser that an operator has switched on goes off after this time.
+inline constexpr std::chrono::seconds kLongestLit{60};
+// If a command still occupies the board this long after the laser should have gone off, the station
+// makes an emergency stop.
+inline constexpr std::chrono::seconds kLaserGrace{2};
 
 // Thread-safe. Commands fail with kState while a job uses the scanner, and with the errors of the
 // devices.
 class ScannerStation {
  public:
-  // `backend` and `jobs` must outlive the station. Devices without a command for `idle_timeout` are
-  // closed, so that other programs can use them.
-  ScannerStation(ScannerBackend& backend, JobQueue& jobs, std::chrono::milliseconds idle_timeout);
+  using Clock = std::chrono::steady_clock;
 
-  // Starts the first look for the scanner. Call it once. status() waits briefly for the result.
+  // `backend` and `jobs` must outlive the station. Devices without a command for `idle_timeout` are
+  // closed, so that other programs can use them. `now` returns the time of the laser's limit.
+  ScannerStation(ScannerBackend& backend, JobQueue& jobs, std::chrono::milliseconds idle_timeout,
+                 std::function<Clock::time_point()> now = Clock::now);
+
+  // Starts the first search for the scanner. Call it once. status() waits briefly for the result.
   void look_for_it();
 
   ScannerBackend& backend() { return backend_; }
   const std::string& name() const { return backend_.name(); }
 
-  // Returns the state without using a device. If the scanner is unreachable, starts another look
-  // for it.
+  // Returns the state without using a device. If the scanner is unreachable, starts to
+  // search for it again in the background.
   ScannerStatus status();
 
   Expected<void> jog(double degrees);
-  Expected<void> laser(bool on);
+  // Switches the laser on until it is switched off, kLongestLit has passed, `permit` returns false,
+  // the table has been turned by hand, or a job begins.
+  Expected<void> switch_laser_on(LaserPermit permit);
+  Expected<void> switch_laser_off();
   // Takes a picture. Works during a paused scan, and does not undo an emergency stop.
   Expected<acquisition::Frame> picture();
 
@@ -51,6 +70,11 @@ class ScannerStation {
 
   // Looks for the scanner: identifies its devices and closes them. Runs on the scanner's executor.
   void look();
+  // Switches off a laser that an operator has switched on. Runs on the scanner's executor.
+  void switch_manual_laser_off();
+  // Keeps a laser on that an operator has switched on, or switches it off once its time or its
+  // permit has ended. Call it once a second.
+  void watch_manual_laser();
   // Posts a task to the scanner's executor that closes the devices.
   void close_after_all();
 
@@ -64,17 +88,28 @@ class ScannerStation {
   // Runs a command on the scanner's executor, unless an emergency stop comes first.
   template <class Action>
   auto command(Action action) -> decltype(action());
+  // Returns the time at which the lit laser must be off, or nullopt if no operator has lit it.
+  std::optional<Clock::time_point> laser_end();
+  void forget_laser();
+  void keep_laser_or_put_it_out();
   void remember(const Expected<ScannerIdentity>& seen);
   void look_again();
 
   ScannerBackend& backend_;
   JobQueue& jobs_;
-  std::shared_future<void> looked_;  // the first look; valid after look_for_it()
+  std::shared_future<void> looked_;  // the first search; valid after look_for_it()
   std::atomic<bool> is_looking_{false};
+  std::atomic<bool> is_tending_{false};  // whether a task that tends the laser waits or runs
+  const std::function<Clock::time_point()> now_;
 
   std::mutex mutex_;  // guards the members below
   std::optional<ScannerIdentity> identity_;
   std::string problem_;
+  struct LitLaser {
+    Clock::time_point end;
+    LaserPermit permit;
+  };
+  std::optional<LitLaser> lit_;  // set while a laser is on that an operator has lit
 };
 
 }  // namespace vitrine::server

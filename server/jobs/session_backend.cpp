@@ -84,7 +84,7 @@ acquisition::ScanStatus follow(acquisition::Scan& scan, ScanListener& listener) 
     listener.report(progress_of(status, record));
     if (!is_under_way(status.state)) return status;
     if (asked || !listener.is_interrupted()) continue;
-    // If the scan is already meshing, it cannot be paused; it will end by itself.
+    // A scan that is already meshing cannot be paused, but ends by itself.
     asked = (listener.is_cancelled() ? scan.cancel() : scan.pause()).has_value();
   }
 }
@@ -121,7 +121,8 @@ Expected<void> SessionBackend::open_board() {
     return fail(ErrorCode::kState,
                 fmt::format("scanner {} was stopped; give it another command", config_.name));
   }
-  // Reopens a board that was stopped, unplugged or switched off by its watchdog meanwhile.
+  // Reopens a board that was stopped, unplugged or switched off by its watchdog since the last
+  // command.
   if (board_ && !board_->position()) close();
   if (board_) return {};
   auto board = scanner_.devices.open_board();
@@ -179,6 +180,12 @@ Expected<void> SessionBackend::laser(bool on) {
       open().and_then([&] { return on ? board_->laser(true) : board_->rest(); }));
 }
 
+Expected<void> SessionBackend::keep_laser() {
+  if (!board_) return fail(ErrorCode::kState, "the laser is off; switch it on again");
+  const auto position = closed_on_error(board_->position());
+  return position ? Expected<void>() : tl::unexpected(position.error());
+}
+
 Expected<acquisition::Frame> SessionBackend::picture() {
   return closed_on_error(open_camera().and_then([&] { return camera_->capture(); }));
 }
@@ -215,7 +222,7 @@ Expected<std::optional<TriangleMesh>> SessionBackend::scan(const ScanOrder& orde
   acquisition::ScanStatus end;
   try {
     end = follow(**scan, listener);
-  } catch (...) {  // ends the scan, because it uses the devices that others may open next
+  } catch (...) {  // ends the scan, so that others can open its devices
     static_cast<void>((*scan)->pause());
     while (is_under_way((*scan)->wait(kTick).state)) {
     }
@@ -317,8 +324,8 @@ Expected<std::vector<CalibrationSummary>> SessionBackend::calibrations() {
   return all;
 }
 
-// Returns the report, or the calibration file itself if it has no report because another program
-// made it.
+// Returns the report of a calibration. If another program made the calibration, there is no report;
+// then returns the calibration file itself.
 Expected<std::optional<std::string>> SessionBackend::calibration_report(int number) {
   auto report = text_of(acquisition::report_file(config_.calibrations, number));
   if (!report || *report) return report;

@@ -21,6 +21,7 @@ class SessionBackend final : public ScannerBackend {
   Expected<ScannerIdentity> identify() override;
   Expected<void> jog(double degrees) override;
   Expected<void> laser(bool on) override;
+  Expected<void> keep_laser() override;
   Expected<acquisition::Frame> picture() override;
   Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
                                              const std::filesystem::path& folder,
@@ -29,6 +30,7 @@ class SessionBackend final : public ScannerBackend {
   void close() override;
 
   const std::string& name() const override { return config_.name; }
+  acquisition::BoardPower power() const override { return scanner_.power->read(); }
   void emergency_stop() noexcept override;
   std::uint64_t stops() const noexcept override { return stop_.presses(); }
   void allow(std::uint64_t stops) noexcept override { stop_.release(stops); }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "server/jobs/clock.h"
+#include "server/jobs/webhook_signature.h"
 #include "server/remote/remote_server.h"
 
 namespace vitrine::server {
@@ -22,15 +24,13 @@ bool Webhooks::allows(std::string_view url) const {
   return std::ranges::find(hosts_, host) != hosts_.end();
 }
 
-void Webhooks::call(const std::string& url, const std::string& json, std::function<bool()> may,
-                    std::function<void()> done) {
-  if (!allows(url)) return;
+void Webhooks::call(WebhookMessage message) {
+  if (!allows(message.url)) return;
   const std::scoped_lock lock(mutex_);
-  if (is_stopping_ || !waiting_.emplace(url, json).second) return;
-  auto& executor = executors_[origin_of(url)];
+  if (is_stopping_ || !waiting_.emplace(message.url, message.json).second) return;
+  auto& executor = executors_[origin_of(message.url)];
   if (!executor) executor = std::make_unique<SerialExecutor>(events_);
-  executor->post(
-      [this, message = Message{url, json, std::move(may), std::move(done)}] { deliver(message); });
+  executor->post([this, message = std::move(message)] { deliver(message); });
 }
 
 void Webhooks::stop() {
@@ -44,7 +44,7 @@ void Webhooks::stop() {
     executor->finish();
 }
 
-// Waits before the next try. Returns false if stop() is called meanwhile.
+// Waits before the next try. Returns false if stop() is called before the wait ends.
 bool Webhooks::pause(int tries) {
   constexpr std::chrono::milliseconds kStep{100};
   for (int i = 0; i < 10 * tries * tries && !is_stopping_; ++i)
@@ -52,13 +52,22 @@ bool Webhooks::pause(int tries) {
   return !is_stopping_;
 }
 
-void Webhooks::deliver(const Message& message) {
+void Webhooks::deliver(const WebhookMessage& message) {
   if (!is_stopping_ && message.may()) post(message);
   const std::scoped_lock lock(mutex_);
   waiting_.erase({message.url, message.json});
 }
 
-void Webhooks::post(const Message& message) {
+std::vector<std::string> Webhooks::fields_of(const WebhookMessage& message) const {
+  std::vector<std::string> fields = {"Content-Type: application/json"};
+  if (key_.empty()) return fields;
+  const std::int64_t seconds = now_in_milliseconds() / 1000;
+  const auto signature = signature_fields(key_, message.id, seconds, message.json);
+  fields.insert(fields.end(), signature.begin(), signature.end());
+  return fields;
+}
+
+void Webhooks::post(const WebhookMessage& message) {
   const std::string origin = origin_of(message.url);
   RemoteServer server;
   std::string fault;
@@ -66,7 +75,7 @@ void Webhooks::post(const Message& message) {
     const auto answer = server.ask(
         {.method = "POST",
          .url = message.url,
-         .fields = {"Content-Type: application/json"},
+         .fields = fields_of(message),
          .body = {reinterpret_cast<const std::uint8_t*>(message.json.data()), message.json.size()},
          .deadline = kDeadline,
          .given_up = [this] { return is_stopping_.load(); }});

@@ -19,44 +19,50 @@
 
 namespace vitrine::server {
 
+struct WebhookMessage {
+  std::string url;
+  std::string id;    // ID of the message; all attempts to send it, by any daemon, use the same ID
+  std::string json;  // the body
+  // Called right before each post. Returns false if another daemon has already posted the message.
+  std::function<bool()> may;
+  // Called when the message is accepted or given up, but not after Webhooks::stop().
+  std::function<void()> done;
+};
+
 // Thread-safe.
 class Webhooks {
  public:
   // `hosts`: allowed hosts, "host" or "host:port" as in URLs. If empty, no webhook is called.
-  Webhooks(std::vector<std::string> hosts, const Log& events)
-      : hosts_(std::move(hosts)), events_(events) {}
+  // `key`: key with which messages are signed (webhook_signature.h). If empty, they are not signed.
+  Webhooks(std::vector<std::string> hosts, const Log& events, std::string key = {})
+      : hosts_(std::move(hosts)), key_(std::move(key)), events_(events) {}
   ~Webhooks() { stop(); }
 
   bool allows(std::string_view url) const;
 
-  // Posts `json` to the URL on another thread, with a few retries until the server accepts it, and
-  // logs the outcome. Each server has its own thread, so that an unreachable one does not delay
-  // others. A message that already waits is not added again. `may` is called right before each
-  // post; it returns false if another daemon has posted the message meanwhile. `done` is called
-  // when the message is accepted or given up, but not after stop().
-  void call(const std::string& url, const std::string& json, std::function<bool()> may,
-            std::function<void()> done);
+  // Posts the message on another thread, with a few retries until the server accepts it, and logs
+  // the outcome. Each server has its own thread, so that an unreachable one does not delay others.
+  // A message that already waits is not added again.
+  void call(WebhookMessage message);
 
   // Cancels the messages that are being sent and drops all waiting ones.
   void stop();
 
  private:
-  struct Message {
-    std::string url, json;
-    std::function<bool()> may;
-    std::function<void()> done;
-  };
-  void deliver(const Message& message);
-  void post(const Message& message);
+  void deliver(const WebhookMessage& message);
+  void post(const WebhookMessage& message);
   bool pause(int tries);
+  std::vector<std::string> fields_of(const WebhookMessage& message) const;
 
   const std::vector<std::string> hosts_;
+  const std::string key_;
   const Log& events_;
   std::atomic<bool> is_stopping_{false};
 
-  std::mutex mutex_;                                                  // guards the members below
-  std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;  // by the server's origin
-  std::set<std::pair<std::string, std::string>> waiting_;             // each message's URL and JSON
+  std::mutex mutex_;  // guards the members below
+  // One executor per origin of a server.
+  std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;
+  std::set<std::pair<std::string, std::string>> waiting_;  // each message's URL and JSON
 };
 
 }  // namespace vitrine::server

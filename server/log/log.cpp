@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <utility>
 
 #include "server/log/write_whole.h"
@@ -24,6 +22,12 @@ bool is_plain(char c) {
 
 void append_text(LogLine& line, std::string_view text) {
   line.append(text.data(), text.data() + text.size());
+}
+
+// Number of bytes that append_value() writes for a character of a text in quotes.
+std::size_t escaped_size(char c) {
+  if (c == '"' || c == '\\') return 2;
+  return c >= ' ' && c < 0x7f ? 1 : 4;
 }
 
 void append_value(LogLine& line, std::string_view value) {
@@ -47,6 +51,19 @@ void append(LogLine& line, std::string_view key, std::string_view value) {
   append_text(line, key);
   append_text(line, "=");
   append_value(line, value);
+}
+
+// Appends a text that a client has sent. Cuts it so that no request makes a long line.
+void append_cut(LogLine& line, std::string_view key, std::string_view value) {
+  constexpr std::size_t kLongest = 256;  // bytes, escaped
+  std::size_t kept = 0;
+  for (std::size_t written = 0; kept < value.size(); ++kept) {
+    written += escaped_size(value[kept]);
+    if (written > kLongest) break;
+  }
+  append(line, key, value.substr(0, kept));
+  if (kept < value.size())
+    fmt::format_to(std::back_inserter(line), " {}_bytes={}", key, value.size());
 }
 
 void append_time(LogLine& line) {
@@ -75,9 +92,9 @@ LogLine line_of(std::string_view event, const auto& record) {
 }
 
 void append_request(LogLine& line, const auto& record) {
-  append(line, "method", record.method);
+  append_cut(line, "method", record.method);
   append(line, "route", record.route);
-  append(line, "target", record.target);
+  append_cut(line, "target", record.target);
 }
 
 std::string_view name(Severity severity) {
@@ -97,30 +114,11 @@ void write_line(int descriptor, LogLine& line) {
   write_whole(descriptor, {line.data(), line.size()});
 }
 
-Unexpected refused(const std::filesystem::path& file, int error) {
-  return fail(ErrorCode::kIo,
-              fmt::format("cannot open the access log {}: {}; choose another with --access-log",
-                          file.string(), std::strerror(error)));
-}
-
-// Opens the log file and returns a descriptor that the caller must close. For standard error,
-// returns a duplicate.
-Expected<int> open_file(const std::filesystem::path& file) {
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
-  const int descriptor = file == "-"    ? ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)
-                         : file.empty() ? ::open("/dev/null", O_WRONLY | O_CLOEXEC)
-                                        : ::open(file.c_str(), kFlags, 0640);
-  if (descriptor < 0) return refused(file, errno);
-  return descriptor;
-}
-
 }  // namespace
 
-Expected<Log> Log::open(const std::filesystem::path& file) {
-  const auto descriptor = open_file(file);
-  if (!descriptor) return tl::unexpected(descriptor.error());
-  Log log(*descriptor);
-  log.is_silent_ = file.empty();
+Expected<Log> Log::open(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  Log log = to_stderr();
+  if (auto opened = log.reopen(file, max_bytes); !opened) return tl::unexpected(opened.error());
   return log;
 }
 
@@ -128,14 +126,13 @@ Log Log::to_stderr() {
   return Log(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0));
 }
 
-Expected<void> Log::reopen(const std::filesystem::path& file) {
-  const auto fresh = open_file(file);
-  if (!fresh) return tl::unexpected(fresh.error());
+Log Log::to_file(int descriptor) {
+  return Log(descriptor);
+}
+
+Expected<void> Log::reopen(const std::filesystem::path& file, std::uint64_t max_bytes) {
   flush();
-  const bool replaced = ::dup3(*fresh, descriptor_, O_CLOEXEC) >= 0;
-  const int error = errno;
-  ::close(*fresh);
-  if (!replaced) return refused(file, error);
+  if (auto opened = file_->open(descriptor_, file, max_bytes); !opened) return opened;
   is_silent_ = file.empty();
   return {};
 }
@@ -143,12 +140,14 @@ Expected<void> Log::reopen(const std::filesystem::path& file) {
 Log::Log(Log&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       is_silent_(other.is_silent_.load()),
-      batch_(std::exchange(other.batch_, std::make_unique<LineBatch>())) {}
+      batch_(std::exchange(other.batch_, std::make_unique<LineBatch>())),
+      file_(std::exchange(other.file_, std::make_unique<LogFile>())) {}
 
 Log& Log::operator=(Log&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
   is_silent_ = other.is_silent_.exchange(is_silent_);
   std::swap(batch_, other.batch_);
+  std::swap(file_, other.file_);
   return *this;
 }
 
@@ -169,7 +168,9 @@ bool Log::access(const AccessRecord& record) const {
 }
 
 void Log::flush() const {
-  if (descriptor_ >= 0) batch_->flush(descriptor_);
+  if (descriptor_ < 0) return;
+  batch_->flush(descriptor_);
+  file_->replace_if_full(descriptor_);
 }
 
 void Log::audit(const AuditRecord& record) const {
@@ -178,6 +179,18 @@ void Log::audit(const AuditRecord& record) const {
   append(line, "token", record.token);
   append_request(line, record);
   fmt::format_to(std::back_inserter(line), " status={}", record.status);
+  write_line(descriptor_, line);
+}
+
+void Log::audit(const CommandRecord& record) const {
+  LogLine line;
+  append_time(line);
+  append(line, "event", "audit");
+  append(line, "user", record.user);
+  append(line, "login", record.login);
+  append(line, "action", record.action);
+  append(line, "target", record.target);
+  append(line, "outcome", record.is_done ? "done" : "failed");
   write_line(descriptor_, line);
 }
 

@@ -11,6 +11,7 @@
 
 #include "codec/core/expected.h"
 #include "server/log/line_batch.h"
+#include "server/log/log_file.h"
 
 namespace vitrine::server {
 
@@ -20,7 +21,7 @@ struct AccessRecord {
   std::string_view remote;  // address of the peer
   std::string_view method;
   std::string_view route;   // the route's template; "-" if no route matched
-  std::string_view target;  // as sent by the client: untrusted text
+  std::string_view target;  // target as the client sent it: untrusted text, which the log cuts
   unsigned status = 0;
   std::uint64_t bytes = 0;  // number of body bytes sent
   double seconds = 0;
@@ -33,8 +34,17 @@ struct AuditRecord {
   std::string_view token;   // the token's ID; "-" without a valid token
   std::string_view method;
   std::string_view route;   // the route's template
-  std::string_view target;  // as sent by the client: untrusted text
+  std::string_view target;  // target as the client sent it: untrusted text, which the log cuts
   unsigned status = 0;
+};
+
+// A command that tried to change an installation. The strings need to live only during the call.
+struct CommandRecord {
+  std::string_view user;    // name or number of the user whose rights the command has
+  std::string_view login;   // number of the user who logged in; "-" if the kernel does not know it
+  std::string_view action;  // such as "token create"
+  std::string_view target;  // what the command changes, as the user named it: untrusted text
+  bool is_done = false;     // whether the change was made
 };
 
 enum class Severity { kInfo, kWarning, kError };
@@ -44,22 +54,26 @@ enum class Severity { kInfo, kWarning, kError };
 class Log {
  public:
   // Opens a log. "-" means standard error; an empty path discards all lines. Fails with kIo if the
-  // file cannot be opened.
-  static Expected<Log> open(const std::filesystem::path& file);
+  // file cannot be opened. If the file has `max_bytes` or more after a flush(), it is renamed to
+  // FILE.old and the log continues in a new file. 0: no limit.
+  static Expected<Log> open(const std::filesystem::path& file, std::uint64_t max_bytes = 0);
   static Log to_stderr();
+  // Writes to a file that is open for appending, and closes it at the end.
+  static Log to_file(int descriptor);
   Log(Log&& other) noexcept;
   Log& operator=(Log&& other) noexcept;
   ~Log();
 
   // Continues the log in `file`, for example after a rotation or under another name. No line is
-  // lost or torn. If that fails (kIo), the log continues in the old file.
-  Expected<void> reopen(const std::filesystem::path& file);
+  // lost or torn. If `file` cannot be opened (kIo), the log continues in the old file.
+  Expected<void> reopen(const std::filesystem::path& file, std::uint64_t max_bytes = 0);
 
   // Adds a line to a batch. Returns true if the caller must call flush() soon. The destructor
   // writes the lines that are left.
   [[nodiscard]] bool access(const AccessRecord& record) const;
   void flush() const;
   void audit(const AuditRecord& record) const;
+  void audit(const CommandRecord& record) const;
   void event(Severity severity, std::string_view message) const;
 
  private:
@@ -70,11 +84,12 @@ class Log {
   int descriptor_;
   std::atomic<bool> is_silent_{false};
   std::unique_ptr<LineBatch> batch_ = std::make_unique<LineBatch>();
+  std::unique_ptr<LogFile> file_ = std::make_unique<LogFile>();
 };
 
 // Returns `value` in logfmt. A value of unambiguous printable ASCII characters stays unquoted. Any
-// other value is quoted: \" and \\ are escaped, and every control or non-ASCII byte becomes \xNN. A
-// request can therefore not forge a line.
+// other value is quoted: \" and \\ are escaped, and every control or non-ASCII byte becomes \xNN.
+// So no request can forge a line.
 std::string logfmt_value(std::string_view value);
 
 }  // namespace vitrine::server

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "codec/core/parse_number.h"
+#include "server/messages/content_coding.h"
 #include "server/messages/problem.h"
 
 namespace vitrine::server {
@@ -80,7 +81,10 @@ Response partial(Response response, const RangeChoice& range) {
 }  // namespace
 
 bool matches_any(std::string_view list, std::string_view etag) {
-  return holds(list, [etag](std::string_view tag) { return tag == etag; });
+  // A client may have received the state that it means as a compressed body.
+  std::string compressed(etag);
+  if (etag.ends_with('"')) compressed.insert(compressed.size() - 1, kGzipTagEnd);
+  return holds(list, [&](std::string_view tag) { return tag == etag || tag == compressed; });
 }
 
 bool matches_any_weakly(std::string_view list, std::string_view etag) {

@@ -11,8 +11,8 @@
 
 namespace vitrine::server {
 
-// Whether an If-Match list is "*" or contains `etag`, which is a strong tag. A weak tag in the list
-// never matches (RFC 9110, 13.1.1).
+// Whether an If-Match list is "*" or contains `etag`, which is a strong tag, or the tag that
+// in_accepted_coding() makes of it. A weak tag in the list never matches (RFC 9110, 13.1.1).
 bool matches_any(std::string_view list, std::string_view etag);
 
 // Whether an If-None-Match list is "*" or contains `etag`. In contrast to matches_any(), a weak tag
@@ -28,9 +28,9 @@ struct RangeChoice {
 // value, as RFC 9110, section 14.2, allows.
 RangeChoice choose_range(std::string_view range, std::uint64_t size);
 
-// Returns `response`, the complete response to a GET or HEAD, or 304, 206 or 416 in its place if
-// the request's If-None-Match or Range requires it. Returns responses other than 200 and responses
-// without an ETag unchanged.
+// Applies If-None-Match and Range of the request to `response`, the complete response to a GET or
+// HEAD. Returns 304, 206 or 416 if they require it, otherwise `response`. Returns responses other
+// than 200 and responses without an ETag unchanged.
 Response apply_conditions(const RequestHeader& request, Response response,
                           std::string_view request_id);
 

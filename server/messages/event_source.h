@@ -9,6 +9,8 @@ namespace vitrine::server {
 
 struct Event {
   std::string name, data;  // one line each
+  // One line that a client sends as Last-Event-ID when it connects again.
+  std::string id;
 };
 
 // A source belongs to one connection, which calls its functions at most five times a second and

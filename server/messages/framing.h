@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guards against request smuggling, which exploits that two parsers disagree on where a request
-// ends. A request with ambiguous framing is answered with 400 and the connection is closed, even if
-// the HTTP library accepts the request.
+// Guards against request smuggling, which exploits a disagreement between two parsers on where a
+// request ends. A request with ambiguous framing is answered with 400 and the connection is closed,
+// even if the HTTP library accepts the request.
 #pragma once
 
 #include <string_view>

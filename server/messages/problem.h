@@ -10,13 +10,17 @@
 
 namespace vitrine::server {
 
+// Media type of the responses of problem().
+inline constexpr std::string_view kProblemType = "application/problem+json";
+
 struct ParameterFault {
   std::string parameter, detail;
 };
 
-// Returns an error response. `detail` explains the fault to the client. It is omitted for status
-// 500 and above, since it may describe the server's internals; the log has it under the request ID.
-// It is kept for 507 (insufficient storage), which the client can act on.
+// Returns an error response. `detail` explains the fault to the client. The response omits `detail`
+// for status 500 and above, since the text may describe the server's internals; the log has the
+// text under the request ID. Only 507 (insufficient storage) keeps `detail`, since the client can
+// act on it.
 Response problem(unsigned status, std::string_view detail, std::string_view request_id,
                  const std::vector<ParameterFault>& errors = {});
 

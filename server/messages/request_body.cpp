@@ -8,13 +8,15 @@
 namespace vitrine::server {
 namespace {
 
-// Whether the media type is JSON. Ignores parameters such as "; charset=utf-8", since JSON is
+// Whether the media type is JSON, or a JSON merge patch (RFC 7396), as which a PATCH may send its
+// changes. Ignores parameters such as "; charset=utf-8", since JSON is
 // always UTF-8.
 bool is_json(std::string_view media_type) {
   std::string_view name = media_type.substr(0, media_type.find(';'));
   while (name.ends_with(' ') || name.ends_with('\t'))
     name.remove_suffix(1);
-  return beast::iequals(name, "application/json");
+  return beast::iequals(name, "application/json") ||
+         beast::iequals(name, "application/merge-patch+json");
 }
 
 // Detects repeated names and too deep nesting while the parser builds the value.

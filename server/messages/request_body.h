@@ -8,7 +8,7 @@
 
 namespace vitrine::server {
 
-inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // bytes
+inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // in bytes
 inline constexpr int kMaxBodyDepth = 16;                   // levels of nested arrays and objects
 
 struct BodyFault {
@@ -17,8 +17,8 @@ struct BodyFault {
 };
 
 // Parses `text` as a JSON object. An empty `text` gives an empty object. Fails if the media type is
-// not application/json, if the text is too large or not an object, if it is nested too deep, or if
-// a name occurs twice in an object.
+// neither application/json nor application/merge-patch+json, if the text is too large or not an
+// object, if it is nested too deep, or if a name occurs twice in an object.
 tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
                                                    std::string_view text);
 

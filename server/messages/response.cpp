@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <initializer_list>
 
@@ -22,7 +23,7 @@ std::string_view cache_control(Caching caching) {
     case Caching::kRevalidate:
       return "no-cache";
     case Caching::kImmutable:
-      return "public, max-age=31536000, immutable";
+      return "public, max-age=31536000, immutable, s-maxage=120, stale-while-revalidate=60";
   }
   return "";
 }
@@ -41,14 +42,19 @@ std::string_view date_field() {
 }
 
 // Header fields of HTML pages. Their content security policy allows only the daemon's own scripts,
-// workers and WebAssembly, so markup in a model's title cannot run scripts.
+// workers, WebAssembly and connections ('self' includes WebSockets), so markup in a model's title
+// can neither run scripts nor send data to other hosts.
 constexpr std::string_view kPagePolicy =
     "Content-Security-Policy: default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; "
-    "worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
-    "connect-src 'self' ws: wss:; object-src 'none'; base-uri 'none'; form-action 'self'\r\n"
-    "Referrer-Policy: strict-origin-when-cross-origin\r\n";
+    "worker-src 'self' blob:; style-src 'self'; img-src 'self' blob: data:; "
+    "connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'self'";
+
+// Continues kPagePolicy for pages that no other site may frame, since their buttons move motors and
+// delete models (clickjacking).
+constexpr std::string_view kNoFrames = "; frame-ancestors 'none'\r\nX-Frame-Options: DENY";
 
 std::string_view reason(unsigned status) {
+  if (status == 460) return "Checksum Mismatch";  // tus 1.0.0
   const auto text = beast::http::obsolete_reason(static_cast<beast::http::status>(status));
   return {text.data(), text.size()};
 }
@@ -74,6 +80,16 @@ Response revalidated(std::string_view type, std::string body) {
   return response;
 }
 
+void add_vary(Response& response, std::string_view name) {
+  const auto vary =
+      std::ranges::find(response.fields, "Vary", [](const auto& field) { return field.first; });
+  if (vary == response.fields.end()) {
+    response.fields.emplace_back("Vary", name);
+  } else {
+    vary->second.append(", ").append(name);
+  }
+}
+
 std::string response_head(const Response& response, const HeadOptions& options) {
   std::string head;
   head.reserve(1024);
@@ -93,9 +109,14 @@ std::string response_head(const Response& response, const HeadOptions& options) 
         "Access-Control-Allow-Origin: *\r\n"
         "Access-Control-Expose-Headers: Content-Range, ETag, Link, X-Request-Id\r\n"
         "Cross-Origin-Resource-Policy: cross-origin\r\n";
+  } else if (!options.trusted_origin.empty()) {
+    append(head, {"Access-Control-Allow-Origin: ", options.trusted_origin,
+                  "\r\nAccess-Control-Expose-Headers: *\r\nVary: Origin\r\n"});
   }
   head += "X-Content-Type-Options: nosniff\r\n";
-  if (response.type.starts_with("text/html")) head += kPagePolicy;
+  if (response.type.starts_with("text/html"))
+    append(head, {kPagePolicy, response.is_embeddable ? "" : kNoFrames,
+                  "\r\nReferrer-Policy: strict-origin-when-cross-origin\r\n"});
   if (options.is_encrypted) head += "Strict-Transport-Security: max-age=31536000\r\n";
   for (const auto& [name, value] : response.fields)
     append(head, {name, ": ", value, "\r\n"});

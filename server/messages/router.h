@@ -45,10 +45,10 @@ class PathParameters {
 
 struct Request {
   const RequestHeader& header;
-  std::string_view path;   // as sent, without the query
-  std::string_view query;  // as sent
+  std::string_view path;   // path as sent, without the query
+  std::string_view query;  // query as sent
   PathParameters parameters;
-  std::string_view id;         // the request ID
+  std::string_view id;
   const nlohmann::json& body;  // a JSON object; empty if the request has no body
   // The owner of the request's token, or nullopt if there is no token or it was not checked. If the
   // route needs a role, its `handler` is called only for a caller that has the role.
@@ -67,7 +67,7 @@ enum class Executor : std::uint8_t {
   kInline,   // the connection's own thread: the handler uses memory and open files only
   kWorker,   // a worker thread: the handler may wait for the catalogue and read from the disk
   kDisk,     // a thread for handlers that wait for durable writes or for the store's lock
-  kCompute,  // a worker thread for long computations; one request per target at a time
+  kCompute,  // a thread for long computations; callers take turns; one computation per target
   kDevice,   // a thread for handlers that wait for devices, for up to several seconds
 };
 
@@ -81,8 +81,9 @@ struct Route {
   // path.
   std::string_view path;
   Handler handler;
-  // Optional. Called on the connection's thread before the caller is known. If it returns nullopt
-  // and the caller is then authorised, it is called again with the caller.
+  // Optional. Called on the connection's thread before the caller is known. If the result is
+  // nullopt and the caller is then authorised, the server calls this function again with the
+  // caller.
   QuickHandler quick;
   Executor executor = Executor::kInline;
   Role role = Role::kNone;  // the lowest role that a caller needs; kNone: no token is needed

@@ -57,6 +57,9 @@ std::string Metrics::text() const {
                stream_bytes.load(kRelaxed));
   append_plain(text, "vitrine_unknown_tokens_total", "counter",
                "Requests with a token that is unknown or revoked.", unknown_tokens.load(kRelaxed));
+  append_plain(text, "vitrine_refusals_not_logged_total", "counter",
+               "Refused requests that the logs leave out, since their address had many.",
+               refusals_not_logged.load(kRelaxed));
   return text;
 }
 

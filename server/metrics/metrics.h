@@ -36,6 +36,9 @@ class Metrics {
   std::atomic<std::uint64_t> stream_bytes{0};    // chunk bytes sent over streams
   std::atomic<std::uint64_t> unknown_tokens{0};  // requests with a token that is unknown or revoked
 
+  // Refused requests that are not logged, because their address had too many of them.
+  std::atomic<std::uint64_t> refusals_not_logged{0};
+
   std::string text() const;
 
  private:

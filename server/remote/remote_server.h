@@ -29,7 +29,7 @@ struct RemoteRequest {
   std::vector<std::string> fields = {};             // header fields, each "Name: value"
   std::span<const std::uint8_t> body = {};          // must outlive the request
   std::function<void(std::uint64_t)> on_sent = {};  // called with the number of body bytes sent
-  std::chrono::seconds timeout{30};                 // limit to connect, and for stalled transfers
+  std::chrono::seconds timeout{30};  // limit for connecting, and for a stalled transfer
   std::optional<std::chrono::seconds> to_connect = {};  // replaces `timeout` for connecting
   std::chrono::seconds deadline{0};                     // limit for the whole request; 0: none
   std::function<bool()> given_up = {};   // called each second; returns true to cancel

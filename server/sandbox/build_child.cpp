@@ -15,6 +15,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include "codec/build/build_model.h"
@@ -28,20 +29,24 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// The child's arguments are: --build-child PARENT BITS PLACEMENT UP UNIT FOLDER. It reads the mesh
-// from standard input and writes the result to standard output.
+// The child's arguments are: --build-child PARENT BITS PLACEMENT UP UNIT FOLDER NAME. The child
+// reads the mesh from standard input and writes the result to standard output.
 constexpr std::string_view kChild = "--build-child";
-constexpr std::size_t kArguments = 7;
+constexpr std::size_t kArguments = 8;
 
 Unexpected refused(const char* what) {
   return fail(ErrorCode::kIo, fmt::format("cannot {}: {}; free some memory and try again", what,
                                           std::strerror(errno)));
 }
 
+// Largest size in bytes of the working file, so that one build does not fill the disk that it
+// shares with models and uploads. This suffices for 70 million triangles. A larger mesh can be
+// built elsewhere, and its .pmesh file uploaded.
+constexpr std::uint64_t kMostSpilled = 16ull << 30;
+constexpr std::size_t kMostRepairs = 4096;  // length of ChildResult::repairs
+
 SandboxLimits limits_of(const std::filesystem::path& folder) {
-  SandboxLimits limits;
-  limits.spill.folder = folder;
-  return limits;
+  return {.spill = {.folder = folder, .max_bytes = kMostSpilled}};
 }
 
 // Returns an unnamed file in memory with these bytes, which the child can map.
@@ -77,7 +82,8 @@ Expected<pid_t> start(const BuildOrder& order, int mesh, int answer) {
       std::to_string(static_cast<int>(order.placement)),
       std::to_string(order.z_is_up ? 1 : 0),
       order.unit,
-      order.folder.string()};
+      order.folder.string(),
+      order.name};
   std::string name = "vitrine-build";
   std::vector<char*> arguments = {name.data()};
   for (const std::string& text : texts)
@@ -96,6 +102,26 @@ Expected<pid_t> start(const BuildOrder& order, int mesh, int answer) {
   return pid;
 }
 
+// Splits the child's answer into the file and the repairs.
+Expected<ChildResult> separate(Bytes answer) {
+  const auto damaged = [] {
+    return fail(ErrorCode::kBadInput, "the build ended without a result; export the mesh again");
+  };
+  if (answer.size() < 4) return damaged();
+  std::size_t length = 0;
+  for (std::size_t i = 4; i > 0; --i)
+    length = length << 8 | answer[answer.size() - 5 + i];
+  answer.erase(answer.end() - 4, answer.end());
+  if (length > kMostRepairs || length > answer.size()) return damaged();
+  ChildResult result;
+  const auto begin = answer.end() - static_cast<std::ptrdiff_t>(length);
+  result.repairs.assign(begin, answer.end());
+  answer.erase(begin, answer.end());
+  std::erase_if(result.repairs, [](char c) { return c != '\n' && (c < ' ' || c > '~'); });
+  result.file = std::move(answer);
+  return result;
+}
+
 // The functions from here to the end of the namespace run in the child.
 
 int number(std::string_view text) {
@@ -104,13 +130,15 @@ int number(std::string_view text) {
   return value;
 }
 
-std::span<const std::uint8_t> map_input() {
+// Returns the mesh; nullopt if the address space has no room for it.
+std::optional<std::span<const std::uint8_t>> map_input() {
+  using Mesh = std::span<const std::uint8_t>;
   struct stat status {};
-  if (::fstat(STDIN_FILENO, &status) != 0 || status.st_size <= 0) return {};
+  if (::fstat(STDIN_FILENO, &status) != 0 || status.st_size <= 0) return Mesh{};
   const auto size = static_cast<std::size_t>(status.st_size);
   void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, STDIN_FILENO, 0);
-  if (data == MAP_FAILED) return {};
-  return {static_cast<const std::uint8_t*>(data), size};
+  if (data == MAP_FAILED) return errno == ENOMEM ? std::nullopt : std::optional(Mesh{});
+  return Mesh(static_cast<const std::uint8_t*>(data), size);
 }
 
 // Closes the parent's descriptors. Standard error becomes /dev/null, so that the child cannot write
@@ -121,10 +149,21 @@ void close_the_rest() {
   ::close_range(STDERR_FILENO + 1, ~0u, 0);
 }
 
+// Appends the lines to the file, and then their length in four bytes; see separate().
+Bytes joined(Bytes file, const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines)
+    if (text.size() + line.size() < kMostRepairs) text += (text.empty() ? "" : "\n") + line;
+  file.insert(file.end(), text.begin(), text.end());
+  for (int shift = 0; shift < 32; shift += 8)
+    file.push_back(static_cast<std::uint8_t>(text.size() >> shift));
+  return file;
+}
+
 Expected<Bytes> verify(std::span<const std::uint8_t> pmesh, const ProgressReport& progress) {
   const auto verified = verify_model(pmesh, std::nullopt, progress);
   if (!verified) return tl::unexpected(verified.error());
-  return Bytes{};
+  return joined({}, {});
 }
 
 }  // namespace
@@ -136,23 +175,25 @@ void become_build_child(std::span<const std::string_view> arguments) {
   std::signal(SIGPIPE, SIG_DFL);
   close_the_rest();
   const auto mesh = map_input();
-  const BuildOptions options{
-      .reading = {.unit = arguments[5], .up = arguments[4] == "1" ? UpAxis::kZ : UpAxis::kY},
-      .bits = number(arguments[2]),
-      .placement = static_cast<Placement>(number(arguments[3]))};
+  const BuildOptions options{.reading = {.unit = arguments[5],
+                                         .up = arguments[4] == "1" ? UpAxis::kZ : UpAxis::kY,
+                                         .name = arguments[7]},
+                             .bits = number(arguments[2]),
+                             .placement = static_cast<Placement>(number(arguments[3]))};
   answer_and_exit(STDOUT_FILENO, limits_of(arguments[6]),
                   [&](const ProgressReport& progress) -> Expected<Bytes> {
-                    if (is_pmesh(mesh)) return verify(mesh, progress);
-                    auto built = build_model(mesh, options, progress);
+                    if (!mesh) exit_without_memory();
+                    if (is_pmesh(*mesh)) return verify(*mesh, progress);
+                    auto built = build_model(*mesh, options, progress);
                     if (!built) return tl::unexpected(built.error());
-                    return std::move(built->file);
+                    return joined(std::move(built->file), built->report.input.repairs);
                   });
 }
 
 void BuildChild::watch(int pid) {
   const std::scoped_lock lock(mutex_);
   child_ = FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
-  // The child has not been waited for, so no other process has its PID.
+  // The parent has not called wait() for the child yet, so no other process can have its PID.
   if (is_stopped_) ::kill(pid, SIGKILL);
 }
 
@@ -162,15 +203,15 @@ void BuildChild::stop() noexcept {
   if (child_) ::syscall(SYS_pidfd_send_signal, child_.get(), SIGKILL, nullptr, 0);
 }
 
-Expected<Bytes> BuildChild::build(std::span<const std::uint8_t> mesh, const BuildOrder& order,
-                                  const ProgressReport& progress) {
+Expected<ChildResult> BuildChild::build(std::span<const std::uint8_t> mesh, const BuildOrder& order,
+                                        const ProgressReport& progress) {
   const auto input = hand_over(mesh);
   if (!input) return tl::unexpected(input.error());
   return build(*input, order, progress);
 }
 
-Expected<Bytes> BuildChild::build(const FileDescriptor& mesh, const BuildOrder& order,
-                                  const ProgressReport& progress) {
+Expected<ChildResult> BuildChild::build(const FileDescriptor& mesh, const BuildOrder& order,
+                                        const ProgressReport& progress) {
   auto pipe = make_pipe();
   if (!pipe) return tl::unexpected(pipe.error());
   const auto pid = start(order, mesh.get(), pipe->write.get());
@@ -183,7 +224,8 @@ Expected<Bytes> BuildChild::build(const FileDescriptor& mesh, const BuildOrder& 
   child_.reset();
   if (!answer && is_stopped_)
     return fail(ErrorCode::kState, "the build was stopped; start it again");
-  return answer;
+  if (!answer) return tl::unexpected(answer.error());
+  return separate(std::move(*answer));
 }
 
 }  // namespace vitrine::server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds a model from a mesh, or verifies a .pmesh file, in a sandboxed child of a multi-threaded
-// process. Such a process must not fork without exec (sandbox.h), so it starts this program again
-// with internal arguments.
+// process. Such a process must not fork without exec (sandbox.h). It therefore starts this program
+// again, with internal arguments.
 #pragma once
 
 #include <filesystem>
@@ -22,6 +22,7 @@ struct BuildOrder {
   Placement placement = Placement::kMidpoint;
   bool z_is_up = false;          // whether z is up in the mesh; in the model, y is always up
   std::string unit = {};         // see ReadOptions::unit
+  std::string name = {};         // see ReadOptions::name
   std::filesystem::path folder;  // folder of the spill file (spill.h); empty: no spilling
   std::filesystem::path program = "/proc/self/exe";  // executable that calls become_build_child()
 };
@@ -30,18 +31,24 @@ struct BuildOrder {
 // main().
 void become_build_child(std::span<const std::string_view> arguments);
 
+struct ChildResult {
+  std::vector<std::uint8_t> file;  // the .pmesh file
+  // The build's repairs and losses, one line for each kind; at most 4,096 bytes of printable text.
+  // The child writes this text, so it may be wrong if the mesh was hostile.
+  std::string repairs;
+};
+
 class BuildChild {
  public:
-  // Builds a model from a mesh file and returns the bytes of the .pmesh file. If `mesh` is a .pmesh
-  // file, only verifies it, ignores `order` and returns no bytes. Errors: those of run_sandboxed()
-  // and build_model(); kState after stop().
-  Expected<std::vector<std::uint8_t>> build(std::span<const std::uint8_t> mesh,
-                                            const BuildOrder& order,
-                                            const ProgressReport& progress);
+  // Builds a model from a mesh file or a package with one. If `mesh` is a .pmesh file, only
+  // verifies it, ignores `order` and returns no bytes. Errors: those of run_sandboxed() and
+  // build_model(); kState after stop().
+  Expected<ChildResult> build(std::span<const std::uint8_t> mesh, const BuildOrder& order,
+                              const ProgressReport& progress);
   // Builds or verifies as above, but reads from an open file. The file must not change during the
   // call.
-  Expected<std::vector<std::uint8_t>> build(const FileDescriptor& mesh, const BuildOrder& order,
-                                            const ProgressReport& progress);
+  Expected<ChildResult> build(const FileDescriptor& mesh, const BuildOrder& order,
+                              const ProgressReport& progress);
 
   // Stops the running build and makes all later ones fail. May be called from any thread.
   void stop() noexcept;

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <system_error>
 
 namespace vitrine::server {
 namespace {
@@ -25,14 +27,24 @@ enum class MessageKind : std::uint8_t { kProgress, kError, kResult };
 
 struct MessageHeader {
   MessageKind kind{};
-  ErrorCode code{};        // code of the error, in an error message
+  ErrorCode code{};        // code of the error, if the message is an error
   double fraction = 0;     // progress, 0..1
   std::uint64_t size = 0;  // bytes of the text or result that follows
 };
 constexpr std::uint64_t kMaxText = 4096;
 
-constexpr int kOutOfMemory = 77;  // exit codes of a child that cannot send an error
+// Exit codes of a child that cannot send an error.
+constexpr int kOutOfMemory = 77;
 constexpr int kCannotAnswer = 78;
+constexpr int kOutOfAddressSpace = 79;  // out of address space because of an inherited limit
+constexpr int kNoThread = 80;
+constexpr int kNotLoaded = 127;  // exit code of the dynamic loader
+
+// The hard limit on this process's address space, in bytes. A child inherits its parent's.
+std::uint64_t address_space() {
+  rlimit limit{};
+  return ::getrlimit(RLIMIT_AS, &limit) == 0 ? limit.rlim_max : RLIM_INFINITY;
+}
 
 // The functions up to in_gigabytes() run in the child.
 
@@ -64,8 +76,31 @@ void send_answer(int fd, const Expected<Bytes>& answer) {
   send_all(fd, answer->data(), answer->size());
 }
 
+// Whether an inherited limit leaves less address space than the task and the spill file may use.
+bool lacks_address_space(const SandboxLimits& limits) {
+  const bool cannot_spill = !limits.spill.folder.empty() && spill_capacity() == 0;
+  const std::uint64_t most = address_space();
+  return most != RLIM_INFINITY && (cannot_spill || most < limits.memory_bytes + spill_capacity());
+}
+
+int exit_code_without_memory = kOutOfMemory;
+
+// Ends the process with the exit code that stands for the current exception.
+[[noreturn]] void exit_for_exception() noexcept {
+  try {
+    if (const auto fault = std::current_exception()) std::rethrow_exception(fault);
+  } catch (const std::bad_alloc&) {
+    exit_without_memory();
+  } catch (const std::system_error& fault) {
+    if (fault.code() == std::errc::resource_unavailable_try_again) ::_exit(kNoThread);
+  } catch (...) {
+  }
+  ::_exit(kCannotAnswer);
+}
+
 Expected<Bytes> run_confined(int fd, const SandboxLimits& limits, const SandboxedTask& task) {
   if (auto opened = open_spill(limits.spill); !opened) return tl::unexpected(opened.error());
+  if (lacks_address_space(limits)) exit_code_without_memory = kOutOfAddressSpace;
   if (auto confined = confine(limits); !confined) return tl::unexpected(confined.error());
   start_trimming();
   return task([fd](std::string_view stage, double fraction) {
@@ -87,6 +122,27 @@ Unexpected too_much_memory(const SandboxLimits& limits) {
           in_gigabytes(limits.memory_bytes)));
 }
 
+// Returns the error for a limit on address space that the child has inherited.
+Unexpected too_little_address_space() {
+  return fail(ErrorCode::kLimit,
+              fmt::format("the mesh needs more address space than the {} that LimitAS of the "
+                          "service, or ulimit -v, allows; remove that limit, and bound the "
+                          "service's memory by MemoryMax",
+                          in_gigabytes(address_space())));
+}
+
+Unexpected no_thread() {
+  return fail(ErrorCode::kLimit,
+              "the system allows no further thread for the mesh; raise TasksMax of the service, or "
+              "ulimit -u");
+}
+
+Unexpected killed() {
+  return fail(ErrorCode::kLimit,
+              "the mesh's process was killed, most likely because memory ran out; raise MemoryMax "
+              "of the service, free some memory or make the mesh smaller");
+}
+
 Unexpected too_much_time(const char* kind, double seconds) {
   return fail(
       ErrorCode::kLimit,
@@ -100,11 +156,31 @@ Unexpected crashed(std::string_view how) {
                           how));
 }
 
+Unexpected cause_of_exit(int code, const SandboxLimits& limits) {
+  const bool is_limited = address_space() != RLIM_INFINITY;
+  switch (code) {
+    case kOutOfMemory:
+      return too_much_memory(limits);
+    case kOutOfAddressSpace:
+      return too_little_address_space();
+    case kNoThread:
+      return is_limited ? too_little_address_space() : no_thread();
+    case kNotLoaded:
+      if (is_limited) return too_little_address_space();
+      break;
+    default:
+      break;
+  }
+  return crashed("ended without an answer");
+}
+
 // Returns an error that says why the child ended without a result or an error.
 Unexpected cause_of_death(int status, const SandboxLimits& limits) {
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory) return too_much_memory(limits);
+  if (WIFEXITED(status)) return cause_of_exit(WEXITSTATUS(status), limits);
   if (!WIFSIGNALED(status)) return crashed("ended without an answer");
   switch (WTERMSIG(status)) {
+    case SIGKILL:
+      return killed();
     case SIGXCPU:
       return too_much_time("processor", limits.cpu_seconds);
     case SIGBUS:
@@ -200,10 +276,18 @@ class Receiver {
 }  // namespace
 
 void answer_and_exit(int fd, const SandboxLimits& limits, const SandboxedTask& task) noexcept {
-  std::set_new_handler([] { ::_exit(kOutOfMemory); });
-  std::set_terminate([] { ::_exit(kCannotAnswer); });
-  send_answer(fd, run_confined(fd, limits, task));
+  std::set_new_handler(exit_without_memory);
+  std::set_terminate(exit_for_exception);
+  try {
+    send_answer(fd, run_confined(fd, limits, task));
+  } catch (...) {
+    exit_for_exception();
+  }
   ::_exit(0);
+}
+
+void exit_without_memory() noexcept {
+  ::_exit(exit_code_without_memory);
 }
 
 Expected<Bytes> await_answer(pid_t pid, int fd, const SandboxLimits& limits,

@@ -14,6 +14,10 @@ namespace vitrine::server {
 [[noreturn]] void answer_and_exit(int fd, const SandboxLimits& limits,
                                   const SandboxedTask& task) noexcept;
 
+// Called in the child, between the start and the end of answer_and_exit(). Ends the process; the
+// parent receives the error kLimit, which says which limit on memory was too low.
+[[noreturn]] void exit_without_memory() noexcept;
+
 // Called in the parent. Returns the result that child `pid` sends over `fd`. Kills the child if it
 // exceeds the wall time or the size limit of the result. Always waits until the child has ended.
 Expected<std::vector<std::uint8_t>> await_answer(pid_t pid, int fd, const SandboxLimits& limits,

@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -18,6 +19,7 @@
 #include <memory>
 
 #include "server/sandbox/child_channel.h"
+#include "server/sandbox/separation.h"
 
 namespace vitrine::server {
 namespace {
@@ -130,9 +132,13 @@ Expected<void> install_filter() {
 // peak by a seventh.
 constexpr int kLargeBlock = 1 << 20;
 
+// Sets a limit. A lower hard limit that the process has inherited stays in force.
 int set_limit(int which, rlim_t soft, rlim_t hard) {
-  const rlimit limit{soft, hard};
-  return ::setrlimit(static_cast<__rlimit_resource_t>(which), &limit) == 0 ? 0 : errno;
+  const auto resource = static_cast<__rlimit_resource_t>(which);
+  rlimit inherited{};
+  if (::getrlimit(resource, &inherited) != 0) return errno;
+  const rlimit limit{std::min(soft, inherited.rlim_max), std::min(hard, inherited.rlim_max)};
+  return ::setrlimit(resource, &limit) == 0 ? 0 : errno;
 }
 
 // Address space cannot be limited under a sanitizer, which reserves terabytes of it for shadow
@@ -148,7 +154,12 @@ Expected<void> set_limits(const SandboxLimits& limits) {
   const auto limit = [&](int which, rlim_t value, rlim_t grace = 0) {
     if (error == 0) error = set_limit(which, value, value + grace);
   };
-  if (kLimitMemory) limit(RLIMIT_AS, limits.memory_bytes + spill_capacity());
+  if (kLimitMemory) {
+    limit(RLIMIT_AS, limits.memory_bytes + spill_capacity());
+    // Without this limit, other memory could use the address space of unmapped parts of the spill
+    // file.
+    limit(RLIMIT_DATA, limits.memory_bytes);
+  }
   limit(RLIMIT_CPU, limits.cpu_seconds, 1);  // sends SIGXCPU, and SIGKILL one second later
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
@@ -170,6 +181,8 @@ void close_all_but(int kept) {
 
 Expected<void> confine(const SandboxLimits& limits) {
   ::mallopt(M_MMAP_THRESHOLD, kLargeBlock);
+  be_killed_first();
+  static_cast<void>(leave_network());
   if (auto limited = set_limits(limits); !limited) return limited;
   if (::prctl(PR_SET_DUMPABLE, 0) != 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) {
     return refused("drop privileges", errno);

@@ -28,17 +28,15 @@
 namespace vitrine::server {
 namespace {
 
-// Blocks of at least this size may spill. It is the block size of Segments.
+// Blocks of at least this many bytes may spill. This is the block size of Segments.
 constexpr std::size_t kLarge = 8192;
-// The disk space of freed ranges of at least this size is released.
+// The disk space of a freed range is released if the range has at least this many bytes.
 constexpr std::size_t kWorthHole = 1 << 20;
-// Limit of the spill file's size. It suffices for 300 million triangles, and any system can map it.
-constexpr std::uint64_t kMostCapacity = 64ull << 30;
 constexpr std::size_t kLargestPage = 65'536;  // largest page size of any supported kernel
 // Blocks spill once large blocks in memory take 1 / kHeldShare of the memory limit.
 constexpr std::uint64_t kHeldShare = 4;
-// The share of the memory limit from which trim() unmaps pages. The rest is for pages that are
-// loaded until the next check.
+// trim() unmaps pages once the process uses this share of the memory limit. The rest is for pages
+// that are loaded before the next check.
 constexpr double kTrimShare = 0.625;
 constexpr std::uint64_t kFew = 8;
 constexpr auto kLook = std::chrono::milliseconds(1);
@@ -103,7 +101,7 @@ class Spill {
   }
 
   struct Resident {
-    std::uint64_t all = 0, mapped = 0;  // bytes in total, and of mapped files
+    std::uint64_t all = 0, mapped = 0;  // resident bytes: all, and those of mapped files
   };
   Resident resident() const {
     std::array<char, 128> text{};
@@ -153,7 +151,8 @@ Unexpected refused(const std::filesystem::path& folder, int error) {
                   folder.string(), std::strerror(error)));
 }
 
-// Creates a file without a name, or one whose name is removed at once.
+// Creates a file without a name. If the file system cannot do this, creates a file and removes its
+// name at once.
 FileDescriptor nameless_file(const std::filesystem::path& folder) {
   FileDescriptor fd(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (fd) return fd;
@@ -163,9 +162,8 @@ FileDescriptor nameless_file(const std::filesystem::path& folder) {
   return fd;
 }
 
-std::size_t capacity_on(const struct statvfs& disk) {
+std::size_t capacity_on(const struct statvfs& disk, std::uint64_t most) {
   struct rlimit file {};
-  std::uint64_t most = kMostCapacity;
   if (::getrlimit(RLIMIT_FSIZE, &file) == 0) most = std::min<std::uint64_t>(most, file.rlim_cur);
   most = std::min<std::uint64_t>(most, disk.f_bavail / 2 * disk.f_frsize);
   return most / PageRanges::kPage * PageRanges::kPage;
@@ -178,7 +176,7 @@ Expected<void> open_spill(const SpillOptions& options) {
   const FileDescriptor file = nameless_file(options.folder);
   struct statvfs disk {};
   if (!file || ::fstatvfs(file.get(), &disk) != 0) return refused(options.folder, errno);
-  const std::size_t capacity = capacity_on(disk);
+  const std::size_t capacity = capacity_on(disk, options.max_bytes);
   if (capacity == 0 || ::ftruncate(file.get(), static_cast<off_t>(capacity)) != 0) return {};
   void* base = ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
   if (base == MAP_FAILED) return {};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Out-of-core allocation. If a process uses more than a share of its memory limit, further large
-// blocks are mapped from an unnamed file, the spill file. Their pages are unmapped when the process
-// uses too much memory. Programs that link this file use it through operator new. Algorithms need
-// no changes, and results stay the same.
+// Allocates large blocks out of core. Once a process uses a certain share of its memory limit,
+// further large blocks are mapped from an unnamed file, the spill file. Their pages are unmapped
+// when the process uses too much memory. Programs that link this file use it through operator new.
+// Algorithms need no changes, and results stay the same.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,9 @@ struct SpillOptions {
   std::filesystem::path folder = {};
   // Limit of the process's resident memory. Only small blocks may exceed it.
   std::uint64_t resident_bytes = 2ull << 30;
+  // Largest size of the spill file. The default suffices for 300 million triangles, and any system
+  // can map it.
+  std::uint64_t max_bytes = 64ull << 30;
   // A read-only mapping of a file from its start. Its pages may be unmapped, too.
   std::span<const std::uint8_t> input = {};
 };
@@ -25,9 +28,9 @@ struct SpillOptions {
 // Starts spilling for the rest of the process's life. Call this once, while the process has one
 // thread. Then call start_trimming() when threads may be started; the process may give up the right
 // to open files between the two calls. From the start, the spill file takes address space: half of
-// the disk's free space, but at most 64 GiB and at most RLIMIT_FSIZE. Blocks that do not fit into
-// it use memory, as do all blocks if the disk cannot hold or map such a file. kIo if no file can be
-// made. If other programs fill the disk later, the process ends with SIGBUS.
+// the disk's free space, but at most max_bytes and at most RLIMIT_FSIZE. Blocks that do not fit
+// into it use memory, as do all blocks if the disk cannot hold or map such a file. kIo if no file
+// can be made. If other programs fill the disk later, the process ends with SIGBUS.
 Expected<void> open_spill(const SpillOptions& options);
 void start_trimming();
 

@@ -10,9 +10,8 @@
 
 namespace vitrine::server {
 
-// The number of attempts and the pauses between them. Each pause is random, up to a bound that
-// doubles with each failure, so that clients that failed at the same time do not retry at the same
-// time.
+// The number of attempts and the pauses between them. Each pause is random. Its upper bound doubles
+// with each failure. Clients that failed at the same time therefore retry at different times.
 struct Backoff {
   int attempts = 5;
   std::chrono::milliseconds first{100}, longest{3000};  // bound of the first pause; largest bound

@@ -19,7 +19,8 @@ PublicPart part_of(const StoredFile& stored, std::uint32_t max_level) {
           .file_bytes = manifest.file_bytes,
           .head_bytes = manifest.head_bytes(),
           .faces = manifest.levels.back().faces,
-          .vertices = manifest.levels.back().vertices};
+          .vertices = manifest.levels.back().vertices,
+          .textures = summary_of(manifest.texture)};
 }
 
 // Starts the grace period of a model's files. The caller does this before it removes the references
@@ -53,7 +54,7 @@ Expected<std::optional<FileToStore>> public_part(const ModelRecord& record,
 }
 
 // Stores `pmesh` and its public part, which `record` defines, as the model's files. Updates the
-// catalogue from `before` to `record`. The chunks in the catalogue are those of the public part.
+// catalogue from `before` to `record`. The blocks in the catalogue are those of the public part.
 Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const ExclusiveLock& lock,
                            const ModelRecord& before, ModelRecord& record,
                            std::span<const std::uint8_t> pmesh, const PublishAs& as) {
@@ -74,7 +75,7 @@ Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const Exclu
   }
   if (auto begun = let_go(store, before); !begun) return begun;
   if (auto held = lock.check(); !held) return held;
-  return catalogue.update(record, (*part ? (*part)->file : *whole).chunks(), as.by);
+  return catalogue.update(record, (*part ? (*part)->file : *whole).blocks(), as.by);
 }
 
 void take_text(std::string& text, const std::string& given) {
@@ -102,6 +103,7 @@ ModelRecord public_view(ModelRecord record) {
   record.head_bytes = part.head_bytes;
   record.faces = part.faces;
   record.vertices = part.vertices;
+  record.textures = part.textures;
   return record;
 }
 
@@ -121,8 +123,8 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
     if (as.state == ModelState::kPublished) record.state = as.state;
     const auto done = store_files(store, catalogue, **lock, **found, record, pmesh, as);
     if (done) return Publication{.id = record.id};
-    // Catalogue::set_state() does not need the lock. If it has changed the model meanwhile, the
-    // loop tries again with the new version.
+    // Another caller may change the model by Catalogue::set_state(), which does not need the lock.
+    // The loop then tries again with the new version.
     if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
     refused = done.error();
     tried = (*found)->version;

@@ -9,7 +9,7 @@ namespace vitrine::server {
 // Returns the record as visitors without a token may see it: with the public part as its file.
 ModelRecord public_view(ModelRecord record);
 
-// Replaces the file of the model `as.id` by `pmesh`, and those of its texts that `metadata`
+// Replaces the file of the model `as.id` by `pmesh`. Also replaces the texts that `metadata`
 // contains. The model's other texts and its public level stay. Publishes a draft if `as.state` is
 // kPublished. kState if the model does not exist.
 Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks on open files and folders.
+// Locks open files and folders.
 #pragma once
 
 #include <fcntl.h>

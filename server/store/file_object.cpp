@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -50,6 +51,18 @@ Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint
 
 std::unique_ptr<Object> object_in(FileDescriptor file, std::uint64_t size) {
   return std::make_unique<FileObject>(std::move(file), size);
+}
+
+bool is_intact(const Object& object, const Sha256& name, const OnPiece& on_piece) {
+  std::vector<std::uint8_t> piece(std::min(kPieceBytes, object.size()));
+  Sha256Hasher hasher;
+  for (std::uint64_t at = 0; at < object.size(); at += piece.size()) {
+    piece.resize(std::min(kPieceBytes, object.size() - at));
+    if (!object.read(at, std::span(piece))) return false;
+    hasher.add(piece);
+    if (!on_piece(piece.size())) return false;
+  }
+  return hasher.finish() == name;
 }
 
 }  // namespace vitrine::server

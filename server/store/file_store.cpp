@@ -12,6 +12,7 @@
 
 #include "codec/files/atomic_file.h"
 #include "codec/files/file_descriptor.h"
+#include "server/catalogue/private_file.h"
 #include "server/store/file_lock.h"
 #include "server/store/file_object.h"
 
@@ -35,15 +36,21 @@ Unexpected full() {
 
 // Whether the object can be read and contains exactly these bytes.
 bool holds(const Object& object, std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kPiece = 1 << 18;
   if (object.size() != bytes.size()) return false;
   std::vector<std::uint8_t> piece;
   for (std::size_t at = 0; at < bytes.size(); at += piece.size()) {
-    const auto expected = bytes.subspan(at, std::min(kPiece, bytes.size() - at));
+    const auto expected = bytes.subspan(at, std::min(kPieceBytes, bytes.size() - at));
     piece.resize(expected.size());
     if (!object.read(at, std::span(piece)) || !std::ranges::equal(piece, expected)) return false;
   }
   return true;
+}
+
+// Returns nullopt if the status of the object's file cannot be read.
+std::optional<FileStamp> stamp_of(const Object& object) {
+  struct stat status {};
+  if (::fstat(*object.descriptor(), &status) != 0) return std::nullopt;
+  return FileStamp::of(status);
 }
 
 // Creates a folder unless it exists. The new folder survives a power failure.
@@ -73,7 +80,7 @@ bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono:
 
 Expected<FileStore> FileStore::open(const fs::path& root) {
   std::error_code error;
-  fs::create_directories(root, error);
+  create_private_folder(root, error);
   if (error) {
     return fail(ErrorCode::kIo, fmt::format("cannot create {}: {}; {}", root.string(),
                                             error.message(), next_step(error.value())));
@@ -93,7 +100,7 @@ Expected<bool> FileStore::put(const Sha256& name, std::span<const std::uint8_t> 
   }
   const fs::path path = path_of(name);
   const fs::path folder = path.parent_path();
-  const auto before = open(name);
+  const auto before = open_unchecked(name);
   if (before && *before != nullptr && holds(**before, bytes)) {
     ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
     const auto synced = sync_folder(folder);
@@ -155,13 +162,55 @@ Expected<std::size_t> FileStore::sweep(const std::set<Sha256>& keep, std::chrono
   return swept;
 }
 
-Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
+Expected<std::unique_ptr<Object>> FileStore::open_unchecked(const Sha256& name) const {
   const fs::path path = path_of(name);
   FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!fd && errno == ENOENT) return nullptr;
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0) return refused("open", path, std::strerror(errno));
   return object_in(std::move(fd), static_cast<std::uint64_t>(status.st_size));
+}
+
+// Only the first open() of a file reads all of it. A file that was written or replaced since counts
+// as another file.
+Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
+  auto object = open_unchecked(name);
+  if (!object || *object == nullptr) return object;
+  const auto stamp = stamp_of(**object);
+  if (stamp && checked_->contains(name, *stamp)) return object;
+  if (!is_intact(**object, name)) {
+    return fail(ErrorCode::kState,
+                fmt::format("object {} is damaged; put it back with 'vitrine repair'",
+                            path_of(name).string()));
+  }
+  if (stamp) checked_->add(name, *stamp);
+  return object;
+}
+
+// Asks the kernel to forget its copy of each piece before reading it, so that the bytes come from
+// the disk. The next pieces stay in memory for visitors.
+Expected<ObjectState> FileStore::check(const Sha256& name, const OnPiece& on_piece) const {
+  const auto object = open_unchecked(name);
+  if (!object) return tl::unexpected(object.error());
+  if (*object == nullptr) return ObjectState::kMissing;
+  const auto stamp = stamp_of(**object);
+  std::uint64_t at = 0;
+  const auto forget_next = [&](std::uint64_t length) {
+    static_cast<void>(::posix_fadvise(*(*object)->descriptor(), static_cast<off_t>(at),
+                                      static_cast<off_t>(length), POSIX_FADV_DONTNEED));
+  };
+  forget_next(kPieceBytes);
+  bool is_stopped = false;
+  const bool intact = is_intact(**object, name, [&](std::uint64_t length) {
+    at += length;
+    forget_next(length);
+    is_stopped = !on_piece(length);
+    return !is_stopped;
+  });
+  if (is_stopped) return fail(ErrorCode::kIo, "the check was stopped; start it again");
+  if (!intact) checked_->forget(name);
+  if (intact && stamp) checked_->add(name, *stamp);
+  return intact ? ObjectState::kIntact : ObjectState::kDamaged;
 }
 
 }  // namespace vitrine::server

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
+#include "server/store/checked_objects.h"
 #include "server/store/object_store.h"
 
 namespace vitrine::server {
@@ -20,13 +22,19 @@ class FileStore final : public ObjectStore {
   Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                               const ExclusiveLock& lock) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
+  Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const override;
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
+
+  // Opens an object without checking its bytes, for callers that hash the bytes themselves. Null if
+  // the object does not exist.
+  Expected<std::unique_ptr<Object>> open_unchecked(const Sha256& name) const;
 
  private:
   explicit FileStore(std::filesystem::path root) : root_(std::move(root)) {}
   std::filesystem::path path_of(const Sha256& name) const;
 
   std::filesystem::path root_;
+  std::unique_ptr<CheckedObjects> checked_ = std::make_unique<CheckedObjects>();
 };
 
 }  // namespace vitrine::server

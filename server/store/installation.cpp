@@ -11,9 +11,13 @@
 
 #include "codec/files/atomic_file.h"
 #include "server/catalogue/postgres_catalogue.h"
+#include "server/catalogue/postgres_faults.h"
+#include "server/catalogue/private_file.h"
 #include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sql_jobs.h"
+#include "server/catalogue/sql_visits.h"
 #include "server/catalogue/sqlite_database.h"
+#include "server/catalogue/sqlite_faults.h"
 #include "server/store/file_lock.h"
 #include "server/store/file_store.h"
 #include "server/store/s3_store.h"
@@ -86,7 +90,7 @@ Expected<void> check_installation(const fs::path& folder) {
 Expected<void> make_data_folder(const fs::path& folder) {
   if (auto usable = check_installation(folder); !usable) return usable;
   std::error_code error;
-  fs::create_directories(folder, error);
+  create_private_folder(folder, error);
   if (!error) return {};
   return fail(ErrorCode::kIo, fmt::format("cannot create {}: {}; {}", folder.string(),
                                           error.message(), next_step(error.value())));
@@ -112,6 +116,11 @@ Expected<void> check_place(const InstallationPlace& place) {
   return address ? Expected<void>() : tl::unexpected(address.error());
 }
 
+Expected<std::vector<std::string>> find_catalogue_faults(const InstallationPlace& place) {
+  return place.catalogue.empty() ? sqlite::find_faults(place.folder / kCatalogueFile)
+                                 : postgres::find_faults(place.catalogue);
+}
+
 Expected<Installation> open_installation(const InstallationPlace& place) {
   if (auto made = make_data_folder(place.folder); !made) return tl::unexpected(made.error());
   auto catalogue = open_catalogue(place);
@@ -122,6 +131,7 @@ Expected<Installation> open_installation(const InstallationPlace& place) {
                       .store = std::move(*store),
                       .catalogue = make_catalogue(catalogue->database),
                       .jobs = make_jobs(catalogue->jobs),
+                      .visits = make_visits(catalogue->jobs),
                       .database = catalogue->database};
 }
 

@@ -7,16 +7,19 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "server/catalogue/catalogue.h"
 #include "server/catalogue/jobs.h"
 #include "server/catalogue/sql.h"
+#include "server/catalogue/visits.h"
 #include "server/store/object_store.h"
 
 namespace vitrine::server {
 
-inline constexpr const char* kCatalogueFile = "catalogue.sqlite";  // in the data folder
-inline constexpr const char* kDaemonLock = "daemon.lock";          // locked by a running daemon
+// Name of a file in the data folder.
+inline constexpr const char* kCatalogueFile = "catalogue.sqlite";
+inline constexpr const char* kDaemonLock = "daemon.lock";  // locked by a running daemon
 
 struct InstallationPlace {
   std::filesystem::path folder;
@@ -29,6 +32,7 @@ struct Installation {
   std::unique_ptr<ObjectStore> store;
   std::unique_ptr<Catalogue> catalogue;
   std::unique_ptr<JobCatalogue> jobs;       // the jobs and scans, in `database`
+  std::unique_ptr<VisitCatalogue> visits;   // the counts of visits, in `database`
   std::shared_ptr<sql::Database> database;  // the catalogue's database
 };
 
@@ -36,7 +40,7 @@ struct Installation {
 // nothing. Fails with kIo.
 Expected<void> check_installation(const std::filesystem::path& folder);
 
-// Creates the folder if it is missing. Fails with kIo.
+// Creates the folder if it is missing. Only its owner can enter the new folder. Fails with kIo.
 Expected<void> make_data_folder(const std::filesystem::path& folder);
 
 // Checks that the folder is an installation, or contains only files that may be there before one is
@@ -46,6 +50,11 @@ Expected<void> check_data_folder(const std::filesystem::path& folder);
 
 // Checks the form of the addresses without connecting. Fails with kBadInput.
 Expected<void> check_place(const InstallationPlace& place);
+
+// Reads the whole catalogue and returns its faults, each in one line; empty if there are none. Uses
+// a connection of its own, so others may use the catalogue meanwhile. The catalogue must exist. kIo
+// if it cannot be opened.
+Expected<std::vector<std::string>> find_catalogue_faults(const InstallationPlace& place);
 
 // Opens the installation. Creates missing parts, except buckets and databases. Several processes
 // may open the same installation. kBadInput if an address is malformed, kIo if a part cannot be

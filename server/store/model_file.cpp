@@ -8,15 +8,19 @@
 namespace vitrine::server {
 namespace {
 
-// Removes the levels finer than `last_level` and their chunks. Positions of merged vertices are
-// rounded down and up in turn, level by level, counted from the finest (FORMAT.md, section 5). An
-// even number of levels is therefore removed: one more than asked if need be, but never the base.
+// Removes the levels finer than `last_level` and their chunks. If there are any, also removes the
+// pictures behind the chunks. Always removes the optional blocks, such as the source's pictures.
+// Positions of merged vertices are rounded down and up in turn, level by level, counted from the
+// finest (FORMAT.md, section 5). So an even number of levels is removed: one more than requested if
+// that number is odd, but never the base.
 void cut(Manifest& manifest, std::uint32_t last_level) {
   const std::size_t all = manifest.levels.size();
   std::size_t levels = std::min<std::size_t>(last_level + 1ull, all);
   if (levels > 1 && (all - levels) % 2 != 0) --levels;
   manifest.levels.resize(levels);
   std::erase_if(manifest.chunks, [&](const ChunkInfo& c) { return c.level >= levels; });
+  if (levels < all) manifest.texture.pictures.resize(manifest.texture.in_head);
+  manifest.optional_blocks.clear();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -35,6 +36,12 @@ class Object {
   Expected<std::vector<std::uint8_t>> read(std::uint64_t offset, std::uint64_t length) const;
 };
 
+enum class ObjectState { kIntact, kDamaged, kMissing };
+
+// Called after each piece of an object was read, with the length of the piece in bytes. May wait,
+// to limit the rate. Returns false to stop reading.
+using OnPiece = std::function<bool(std::uint64_t bytes)>;
+
 // Safe to use from several threads and processes at once.
 class ObjectStore {
  public:
@@ -55,8 +62,8 @@ class ObjectStore {
   virtual Expected<void> remove(const Sha256& name) = 0;
 
   // Starts the object's grace period again, if the object exists. The caller does this before it
-  // removes a reference to the object, because a client may be about to read it. The caller holds
-  // the lock. Fails with kIo.
+  // removes a reference to the object, because a client may be about to read the object. The caller
+  // holds the lock. Fails with kIo.
   virtual Expected<void> begin_grace(const Sha256& name) = 0;
 
   // Removes remains of interrupted puts, and unreferenced objects whose grace period has ended.
@@ -66,9 +73,14 @@ class ObjectStore {
   virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                       const ExclusiveLock& lock) = 0;
 
-  // Opens an object; null if it does not exist. A remote store downloads the object and checks its
-  // SHA-256.
+  // Opens an object; null if it does not exist. Checks its SHA-256 if this process has not checked
+  // it before, which reads the whole object. kState if the object is damaged, kIo if the store
+  // fails.
   virtual Expected<std::unique_ptr<Object>> open(const Sha256& name) const = 0;
+
+  // Reads the whole object from the disk or the bucket and checks its SHA-256, even if it was
+  // checked before. kIo if the store fails or `on_piece` returned false.
+  virtual Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const = 0;
 
   // Returns the size of an object without opening it; nullopt if the object does not exist.
   virtual Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const = 0;

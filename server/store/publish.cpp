@@ -30,11 +30,16 @@ ModelRecord new_record(const StoredFile& file, const ModelMetadata& metadata, co
 }
 
 Expected<void> check_text(const char* name, const std::string& text) {
-  constexpr std::size_t kMaxBytes = 4096;
-  if (text.size() <= kMaxBytes && is_plain_text(text)) return {};
+  if (is_line(text)) return {};
   return fail(ErrorCode::kBadInput, std::string("the ") + name +
                                         " is not one line of UTF-8 of at most 4096 bytes; give "
                                         "another");
+}
+
+Expected<void> check_paragraphs(const char* name, const std::string& text) {
+  if (is_paragraphs(text)) return {};
+  return fail(ErrorCode::kBadInput,
+              std::string("the ") + name + " is not UTF-8 of at most 16,384 bytes; give another");
 }
 
 // Returns the model with this ID, or else a published model with the same file and texts, which
@@ -59,7 +64,7 @@ Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record, const
     if (!told) return tl::unexpected(told.error());
     return Publication{.id = (*same)->id, .is_new = false};
   }
-  if (auto added = catalogue.add(record, stored.chunks(), by); !added)
+  if (auto added = catalogue.add(record, stored.blocks(), by); !added)
     return tl::unexpected(added.error());
   return Publication{.id = record.id};
 }
@@ -69,10 +74,13 @@ Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record, const
 Expected<void> check_texts(const ModelMetadata& metadata) {
   if (auto good = check_text("title", metadata.title); !good) return good;
   if (auto good = check_text("creator", metadata.creator); !good) return good;
-  if (auto good = check_text("rights statement", metadata.rights); !good) return good;
+  if (auto good = check_paragraphs("rights statement", metadata.rights); !good) return good;
   if (auto good = check_text("licence", metadata.licence); !good) return good;
   for (const auto& [name, text] : metadata.more) {
-    if (auto good = check_text(name.c_str(), text); !good) return good;
+    const bool has_paragraphs = name == kDescription;
+    auto good =
+        has_paragraphs ? check_paragraphs(name.c_str(), text) : check_text(name.c_str(), text);
+    if (!good) return good;
   }
   return {};
 }
@@ -92,7 +100,8 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   if (auto stored = store_file(store, *file, pmesh); !stored) return tl::unexpected(stored.error());
   if (auto held = (*lock)->check(); !held) return tl::unexpected(held.error());
   auto published = add(catalogue, record, *file, as.by);
-  // On kIo, the catalogue may have added the reference to the file before the error.
+  // Even after the error kIo, the catalogue may contain the reference to the file, so the file must
+  // stay.
   const bool is_unnamed = !published && published.error().code != ErrorCode::kIo;
   if (is_unnamed && file->is_new && (*lock)->check()) static_cast<void>(store.remove(file->name));
   return published;

@@ -18,13 +18,17 @@ struct ModelMetadata {
   std::map<std::string, std::string> more = {};  // see ModelRecord::more
 };
 
-// Checks that each text is a short line of UTF-8. Fails with kBadInput.
+// Name of the text in ModelMetadata::more that may have several paragraphs.
+inline constexpr std::string_view kDescription = "description";
+
+// Checks that the rights statement and the description are paragraphs of UTF-8, and each other text
+// a short line (see server/store/text.h). Fails with kBadInput.
 Expected<void> check_texts(const ModelMetadata& metadata);
 
 struct PublishAs {
   ModelState state = ModelState::kPublished;
-  // ID of the new model; nullopt: generate one. If a model with this ID exists, publish() returns
-  // that model, so that an interrupted caller can retry with the same ID.
+  // ID of the new model; nullopt: publish() generates one. If a model with this ID exists,
+  // publish() returns that model, so that an interrupted caller can retry with the same ID.
   std::optional<ModelId> id = std::nullopt;
   Quota* quota = nullptr;  // limits the files' size; null: no limit
   // The upload from which the files were made. It does not count towards the quota, because it is

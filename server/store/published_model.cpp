@@ -9,29 +9,32 @@
 #include <mutex>
 #include <numeric>
 
+#include "codec/format/file_blocks.h"
 #include "server/store/change.h"
 
 namespace vitrine::server {
 namespace {
 
-constexpr std::size_t kMaxOpenModels = 256;  // most cached models; each keeps a file open
+constexpr std::size_t kMaxOpenModels = 256;  // limit on cached models; each keeps a file open
 // How long cached models are served while the catalogue is unreachable.
 constexpr std::chrono::minutes kUnreachableFor{15};
 // A catalogue that takes longer to respond counts as unreachable.
 constexpr std::chrono::milliseconds kResponseTime{250};
 
-Unexpected damaged(const ModelRecord& record, std::string_view why) {
-  return fail(ErrorCode::kState, fmt::format("model {} cannot be served: {}; publish it again",
-                                             record.id.to_string(), why));
+Unexpected damaged_file(const ModelRecord& record, std::string_view why) {
+  return fail(
+      ErrorCode::kState,
+      fmt::format("model {} cannot be served: {}; publish it again, or run 'vitrine repair'",
+                  record.id.to_string(), why));
 }
 
 Expected<Manifest> read_manifest(const Object& file, const ModelRecord& record) {
   const auto head = file.read(0, std::min(record.head_bytes, file.size()));
   if (!head) return tl::unexpected(head.error());
   auto manifest = parse_header(*head);
-  if (!manifest) return damaged(record, manifest.error().message);
+  if (!manifest) return damaged_file(record, manifest.error().message);
   if (manifest->file_bytes != file.size() || manifest->head_bytes() != record.head_bytes) {
-    return damaged(record, "the length of its file differs from the length in the header");
+    return damaged_file(record, "the length of its file differs from the length in the header");
   }
   return manifest;
 }
@@ -48,10 +51,13 @@ std::vector<std::uint32_t> by_name(const std::vector<ChunkInfo>& chunks) {
 std::uint64_t memory_of(const Manifest& manifest) {
   constexpr std::uint64_t kEntry =
       sizeof(Sha256) + sizeof(PublishedChunk) + 4 * sizeof(void*) + sizeof(std::uint32_t);
-  std::uint64_t bytes = sizeof(PublishedModel) + (manifest.chunks.size() + 1) * kEntry +
-                        manifest.chunks.size() * sizeof(ChunkInfo) +
-                        manifest.levels.size() * sizeof(LevelInfo) +
-                        manifest.tree.nodes.size() * sizeof(RegionNode);
+  const std::size_t pictures = manifest.texture.pictures.size();
+  const std::size_t optional = manifest.optional_blocks.size();
+  std::uint64_t bytes =
+      sizeof(PublishedModel) + (manifest.chunks.size() + pictures + optional + 2) * kEntry +
+      pictures * sizeof(PictureInfo) + optional * sizeof(OptionalBlock) +
+      manifest.chunks.size() * sizeof(ChunkInfo) + manifest.levels.size() * sizeof(LevelInfo) +
+      manifest.tree.nodes.size() * sizeof(RegionNode);
   using Leaves = decltype(manifest.adjacency)::value_type;
   for (const Leaves& leaves : manifest.adjacency)
     bytes += sizeof(Leaves) + leaves.size() * sizeof(Leaves::value_type);
@@ -74,11 +80,20 @@ std::optional<ModelRecord> shown(ModelRecord record, bool is_whole) {
 
 }  // namespace
 
+Sha256 geometry_hash(const Manifest& manifest) {
+  std::vector<std::uint8_t> names(manifest.base_sha256.begin(), manifest.base_sha256.end());
+  for (const ChunkInfo& chunk : manifest.chunks)
+    names.insert(names.end(), chunk.sha256.begin(), chunk.sha256.end());
+  return sha256(names);
+}
+
 Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const ObjectStore& store,
                                                                      ModelRecord record) {
   auto file = store.open(record.file);
+  if (!file && file.error().code == ErrorCode::kState)
+    return damaged_file(record, "its file " + to_hex(record.file) + " is damaged");
   if (!file) return tl::unexpected(file.error());
-  if (!*file) return damaged(record, "its file is missing from the store");
+  if (!*file) return damaged_file(record, "its file is missing from the store");
   auto manifest = read_manifest(**file, record);
   if (!manifest) return tl::unexpected(manifest.error());
   std::shared_ptr<PublishedModel> model(new PublishedModel);
@@ -90,7 +105,11 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const Objec
 }
 
 std::optional<ByteRange> PublishedModel::find(const Sha256& sha256) const {
-  if (manifest_.base_sha256 == sha256) return base();
+  std::optional<ByteRange> beside;
+  for_each_block_beside_chunks(manifest_, [&](const FileBlock& block) {
+    if (block.sha256 == sha256) beside = {block.offset, block.length};
+  });
+  if (beside) return beside;
   const auto name_of = [this](std::uint32_t i) { return manifest_.chunks[i].sha256; };
   const auto found = std::ranges::lower_bound(by_name_, sha256, {}, name_of);
   if (found == by_name_.end() || name_of(*found) != sha256) return std::nullopt;
@@ -111,9 +130,10 @@ bool PublishedModels::is_fresh(Clock::time_point now, Clock::duration age) const
   return checked_ != Clock::time_point{} && now - checked_ < age;
 }
 
-// Whether a caller may use the cache without a check of the catalogue. A check is due after half of
-// staleness_. Runs the check in the background, or, without refresh_by(), returns false to one
-// caller, which makes the check while the others continue.
+// Whether a caller may use the cache without first checking the catalogue for changes. When half of
+// staleness_ has passed since the last check, starts the next check in the background. If no
+// function was set by refresh_by(), returns false to one caller instead. That caller makes the
+// check, and all other callers use the cache meanwhile.
 bool PublishedModels::may_show(Clock::time_point now) {
   if (!is_fresh(now, staleness_)) return false;
   auto due = due_.load(std::memory_order_relaxed);
@@ -180,7 +200,8 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   }
   if (*revision == revision_) return {};
   revision_ = *revision;
-  // Models opened meanwhile may be older than the new revision, so they are dropped, too.
+  // A model that was opened during the check may be older than the new revision, so it is dropped,
+  // too.
   for (auto it = models_.begin(); it != models_.end();)
     it = std::ranges::count(*kept, it->second.model.get()) > 0 ? std::next(it) : drop(it);
   return {};
@@ -228,25 +249,79 @@ Expected<PublishedModels::ModelPointer> PublishedModels::load(const Scope& scope
 Expected<PublishedModels::ModelPointer> PublishedModels::open(const Scope& scope) {
   const auto before = catalogue_.revision();
   if (!before) return tl::unexpected(before.error());
-  auto model = open_newest(scope);
+  auto model = open_newest(scope, *before);
   if (model && *model) remember(scope, *model, *before);
   return model;
 }
 
-// Opens the newest version of a model. Returns null if the scope does not include the model. If the
-// file is missing, the model may have been replaced and its old file removed. Therefore fails only
-// if the record is still the same.
-Expected<PublishedModels::ModelPointer> PublishedModels::open_newest(const Scope& scope) {
+// Opens the newest version of a model. `revision` is the catalogue's revision before this call.
+// Returns null if the scope does not include the model. If the file is missing, the model may have
+// been replaced and its old file removed. So this function looks up the record again, and fails
+// only if its version is still the same.
+Expected<PublishedModels::ModelPointer> PublishedModels::open_newest(const Scope& scope,
+                                                                     std::uint64_t revision) {
   for (std::optional<std::uint64_t> failed;;) {
     auto record = catalogue_.find(scope.id);
     if (!record) return tl::unexpected(record.error());
     auto seen = *record ? shown(std::move(**record), scope.is_whole) : std::nullopt;
     if (!seen) return nullptr;
     const std::uint64_t version = seen->version;
-    auto model = PublishedModel::open(store_, std::move(*seen));
-    if (model || failed == version) return model;
+    const Sha256 file = seen->file;
+    auto model = open_file(std::move(*seen), revision);
+    if (model) return model;
+    if (failed == version) {
+      const std::unique_lock lock(mutex_);
+      if (model.error().code == ErrorCode::kState) set_damaged(file, revision);
+      return model;
+    }
     failed = version;
   }
+}
+
+// Opens the file of `record`. Fails if the file is known to be damaged at `revision`, which is the
+// catalogue's. The cache's revision_ may be older, and the file may have been repaired since.
+Expected<PublishedModels::ModelPointer> PublishedModels::open_file(ModelRecord record,
+                                                                   std::uint64_t revision) {
+  const Sha256 file = record.file;
+  bool was_damaged = false;  // whether the file was damaged at an earlier revision
+  {
+    const std::shared_lock lock(mutex_);
+    if (is_known_damaged(file, revision))
+      return damaged_file(record, "its file " + to_hex(file) + " is damaged or missing");
+    was_damaged = damaged_.contains(file);
+  }
+  auto model = PublishedModel::open(store_, std::move(record));
+  if (model && was_damaged) set_intact(file);
+  return model;
+}
+
+bool PublishedModels::is_known_damaged(const Sha256& file, std::uint64_t revision) const {
+  const auto found = damaged_.find(file);
+  return found != damaged_.end() && found->second == revision;
+}
+
+void PublishedModels::set_damaged(const Sha256& file) {
+  const std::unique_lock lock(mutex_);
+  set_damaged(file, revision_);
+}
+
+void PublishedModels::set_damaged(const Sha256& file, std::uint64_t revision) {
+  damaged_[file] = revision;
+  for (auto it = models_.begin(); it != models_.end();)
+    it = it->second.model->record().file == file ? drop(it) : std::next(it);
+}
+
+void PublishedModels::set_intact(const Sha256& file) {
+  const std::unique_lock lock(mutex_);
+  damaged_.erase(file);
+}
+
+std::vector<Sha256> PublishedModels::damaged() {
+  const std::shared_lock lock(mutex_);
+  std::vector<Sha256> files;
+  for (const auto& [file, revision] : damaged_)
+    files.push_back(file);
+  return files;
 }
 
 void PublishedModels::remember(const Scope& scope, const ModelPointer& model,
@@ -254,6 +329,8 @@ void PublishedModels::remember(const Scope& scope, const ModelPointer& model,
   const std::uint64_t bytes = memory_of(model->manifest());
   const std::unique_lock lock(mutex_);
   if (revision != revision_) return;  // the model may have changed meanwhile
+  // Another caller has found meanwhile that the file is damaged.
+  if (is_known_damaged(model->record().file, revision)) return;
   if (bytes > max_bytes_ || models_.contains(scope)) return;
   model->asked_ = Clock::now().time_since_epoch().count();
   models_[scope] = {model, bytes};
@@ -263,20 +340,20 @@ void PublishedModels::remember(const Scope& scope, const ModelPointer& model,
 }
 
 void PublishedModels::index_chunks(const ModelPointer& model) {
-  const Manifest& manifest = model->manifest();
-  chunks_.insert({manifest.base_sha256, {model, model->base()}});
-  for (std::size_t i = 0; i < manifest.chunks.size(); ++i)
-    chunks_.insert({manifest.chunks[i].sha256, {model, model->chunk(i)}});
+  for_each_block(model->manifest(), [&](const FileBlock& block) {
+    chunks_.insert({block.sha256, {model, {block.offset, block.length}}});
+  });
 }
 
-void PublishedModels::keep_manifest(const ModelPointer& model, Document document) {
-  const std::uint64_t bytes = sizeof document + document.text.size() + document.etag.size();
-  auto kept = std::make_shared<const Document>(std::move(document));
+void PublishedModels::keep_manifest(const ModelPointer& model,
+                                    std::shared_ptr<const Document> document) {
+  const std::uint64_t bytes =
+      sizeof *document + document->text.size() + document->etag.size() + document->gzip.size();
   const std::unique_lock lock(mutex_);
   const auto it = models_.find({model->record().id});
   const bool is_held = it != models_.end() && it->second.model == model;
   if (!is_held || model->kept_manifest() || it->second.bytes + bytes > max_bytes_) return;
-  std::atomic_store(&model->told_, std::move(kept));
+  std::atomic_store(&model->told_, std::move(document));
   it->second.bytes += bytes;
   bytes_ += bytes;
   make_room();
@@ -284,15 +361,12 @@ void PublishedModels::keep_manifest(const ModelPointer& model, Document document
 
 PublishedModels::CachedModels::iterator PublishedModels::drop(CachedModels::iterator held) {
   const ModelPointer model = held->second.model;
-  const auto forget = [&](const Sha256& sha256) {
-    const auto [first, last] = chunks_.equal_range(sha256);
+  for_each_block(model->manifest(), [&](const FileBlock& block) {
+    const auto [first, last] = chunks_.equal_range(block.sha256);
     const auto own =
         std::find_if(first, last, [&](const auto& at) { return at.second.model == model; });
     if (own != last) chunks_.erase(own);
-  };
-  forget(model->manifest().base_sha256);
-  for (const ChunkInfo& chunk : model->manifest().chunks)
-    forget(chunk.sha256);
+  });
   bytes_ -= held->second.bytes;
   return models_.erase(held);
 }
@@ -334,6 +408,12 @@ Expected<PublishedModels::ModelPointer> PublishedModels::find(const Scope& scope
     }
   }
   return load(scope);
+}
+
+Expected<std::uint64_t> PublishedModels::revision() {
+  if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
+  const std::shared_lock lock(mutex_);
+  return revision_;
 }
 
 void PublishedModels::refresh() {

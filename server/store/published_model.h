@@ -8,6 +8,7 @@
 #include <chrono>
 #include <functional>
 #include <future>
+#include <map>
 #include <memory>
 #include <shared_mutex>
 #include <unordered_map>
@@ -23,16 +24,22 @@ struct ByteRange {
   std::uint64_t offset = 0, length = 0;
 };
 
-// The JSON text of a model's manifest, with its entity tag.
+// A public JSON text that is kept in memory, with its entity tag and its compressed form.
 struct Document {
   std::string text, etag;
+  std::vector<std::uint8_t> gzip;  // `text` as a gzip file; empty if it is not compressed
 };
+
+// Returns a hash of the base mesh and all chunks. Files with the same hash decode to the same
+// levels, even if their units differ. A file without its finest levels has another hash.
+Sha256 geometry_hash(const Manifest& manifest);
 
 // A model that is open for reading. Immutable. Keeps its file open as long as it exists, so hold
 // the shared pointer while bytes are being sent.
 class PublishedModel {
  public:
-  // Opens the file of `record`. kState if the object is missing or does not match the record.
+  // Opens the file of `record`. kState if the object is missing or damaged, or does not match the
+  // record.
   static Expected<std::shared_ptr<const PublishedModel>> open(const ObjectStore& store,
                                                               ModelRecord record);
 
@@ -45,8 +52,8 @@ class PublishedModel {
   ByteRange chunk(std::size_t index) const {
     return {manifest_.chunks[index].offset, manifest_.chunks[index].length};
   }
-  // Returns the position of the chunk or base with that SHA-256; nullopt if the model does not have
-  // it.
+  // Returns the position of the block with that SHA-256 (file_blocks.h); nullopt if the model does
+  // not have it.
   std::optional<ByteRange> find(const Sha256& sha256) const;
   Expected<std::vector<std::uint8_t>> read(ByteRange range) const {
     return file_->read(range.offset, range.length);
@@ -105,17 +112,28 @@ class PublishedModels {
   // catalogue.
   void refresh();
 
-  // Keeps the JSON of the model's manifest as long as the model is cached, if the memory suffices.
-  void keep_manifest(const std::shared_ptr<const PublishedModel>& model, Document document);
+  // Returns Catalogue::revision(), at most `staleness` old. While it stays the same, find() and
+  // find_whole() return the same models. Fails as find() does.
+  Expected<std::uint64_t> revision();
 
-  // Return the model or the chunk if it is cached and known to be current, else null. They wait
-  // neither for the catalogue nor for the disk.
+  // Keeps the JSON of the model's manifest as long as the model is cached, if the memory suffices.
+  void keep_manifest(const std::shared_ptr<const PublishedModel>& model,
+                     std::shared_ptr<const Document> document);
+
+  // The functions cached…() return the model or the chunk if it is cached and known to be current,
+  // else null. They wait neither for the catalogue nor for the disk.
   std::shared_ptr<const PublishedModel> cached(const ModelId& id);
   std::shared_ptr<const PublishedModel> cached_whole(const ModelId& id);
   std::optional<PublishedChunk> cached_chunk(const Sha256& sha256);
 
-  // Returns a chunk or a base mesh of any published model.
+  // Returns the block with this SHA-256 (file_blocks.h), if any published model has it.
   Expected<PublishedChunk> find_chunk(const Sha256& sha256);
+
+  // Reports that a stored file is damaged or missing. No model is served from it until it is found
+  // intact, or until it opens without a fault after a change of the catalogue.
+  void set_damaged(const Sha256& file);
+  void set_intact(const Sha256& file);
+  std::vector<Sha256> damaged();  // the files that are known to be damaged or missing
 
   // The number of requests answered from the cache, and the number of models opened.
   std::atomic<std::uint64_t> hits{0}, misses{0};
@@ -159,7 +177,11 @@ class PublishedModels {
   Expected<ModelPointer> find(const Scope& scope);
   Expected<ModelPointer> load(const Scope& scope);
   Expected<ModelPointer> open(const Scope& scope);
-  Expected<ModelPointer> open_newest(const Scope& scope);
+  Expected<ModelPointer> open_newest(const Scope& scope, std::uint64_t revision);
+  Expected<ModelPointer> open_file(ModelRecord record, std::uint64_t revision);
+  void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
+  // Whether the file was damaged at this revision. The caller holds the lock.
+  bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
   void remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
   void index_chunks(const ModelPointer& model);               // the caller holds the lock
   CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds the lock
@@ -173,7 +195,7 @@ class PublishedModels {
   std::shared_mutex mutex_;  // guards the members below
   std::uint64_t revision_ = 0;
   Clock::time_point checked_{};
-  Clock::time_point known_{};          // time of the last response; {}: none since refresh()
+  Clock::time_point known_{};  // time of the catalogue's last response; {}: none since refresh()
   std::atomic<Clock::rep> due_{0};     // time of the next check for changes
   std::atomic<Clock::rep> asking_{0};  // start of the running check; 0: none
   // Number of refresh() calls. Data that was read before the latest call is outdated.
@@ -181,9 +203,12 @@ class PublishedModels {
   std::uint64_t max_bytes_;
   std::uint64_t bytes_ = 0;
   CachedModels models_;
-  // Chunks of the cached public parts. A chunk that several models have occurs once for each.
+  // Blocks of the cached public parts. A block that several models have occurs once for each.
   std::unordered_multimap<Sha256, PublishedChunk, HashOfHash> chunks_;
   std::unordered_map<Scope, std::shared_ptr<Opening>, HashOfScope> openings_;
+  // Files that are damaged or missing, each with the revision at which the fault was last found.
+  // While the revision stays the same, requests do not read the file again.
+  std::map<Sha256, std::uint64_t> damaged_;
 };
 
 }  // namespace vitrine::server

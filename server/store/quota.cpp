@@ -11,7 +11,7 @@
 namespace vitrine::server {
 namespace {
 
-using Sizes = std::map<Sha256, std::uint64_t>;  // bytes of each file by its SHA-256
+using Sizes = std::map<Sha256, std::uint64_t>;  // size of each file in bytes, by its SHA-256
 
 Expected<Sizes> named_files(Catalogue& catalogue) {
   const auto files = catalogue.files();

@@ -14,8 +14,8 @@
 
 namespace vitrine::server {
 
-// Write and read the limit in the data folder, in bytes, so that programs that publish without the
-// daemon know it, too. 0 means no limit. Fail with kIo.
+// These functions write and read the limit in the data folder, in bytes, so that programs that
+// publish without the daemon know it, too. 0 means no limit. Both fail with kIo.
 Expected<void> write_quota(const std::filesystem::path& folder, std::uint64_t bytes);
 Expected<std::uint64_t> read_quota(const std::filesystem::path& folder);
 
@@ -44,8 +44,8 @@ class Quota {
   Quota(Catalogue& catalogue, const Uploads& uploads, std::uint64_t bytes)
       : catalogue_(catalogue), uploads_(uploads), bytes_(bytes) {}
 
-  // Calls `take` to create an upload if `bytes` more fit beside the models' files and the other
-  // uploads. Admits one caller at a time.
+  // `take` creates an upload of `bytes` bytes. Calls it if these bytes fit beside the models' files
+  // and the other uploads. Admits one caller at a time.
   Expected<void> admit(std::uint64_t bytes, const std::function<void()>& take);
 
   // Reserves space for the files of a new model. Files that another model already has need no

@@ -22,7 +22,8 @@ struct S3Address {
   static Expected<S3Address> parse(std::string_view text);
 
   // Returns the URL of the object with that key, or of the bucket if `key` is empty. The key must
-  // not need encoding. `query` must be encoded and sorted by name.
+  // contain only characters that need no percent-encoding. `query` must be encoded and sorted by
+  // name.
   std::string url_of(std::string_view key, std::string_view query = {}) const;
 };
 

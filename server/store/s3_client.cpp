@@ -13,11 +13,11 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kTimeout{5};
-// For this time after an unanswered request, failed requests are not retried.
+// After a request gets no response, failed requests are not retried for this long.
 constexpr std::chrono::seconds kUnreachable{2};
 
-// Whether another attempt may succeed, because the store is busy (SlowDown), is restarting, or is
-// unreachable for its proxy.
+// Whether another attempt may succeed, because the store is busy (SlowDown) or restarting, or
+// because its proxy cannot reach it.
 bool is_passing(long status) {
   constexpr std::array<long, 6> kPassing{408, 429, 500, 502, 503, 504};
   return std::ranges::count(kPassing, status) > 0;
@@ -64,9 +64,18 @@ Expected<RemoteAnswer> S3Client::ask_once(const S3Request& request) {
 
 Expected<RemoteAnswer> S3Client::ask(const S3Request& request) {
   const int attempts = Clock::now() < unreachable_until_.load() ? 1 : backoff_.attempts;
+  bool is_cancelled = false;
+  S3Request watched = request;
+  if (request.take) {
+    watched.take = [&](std::span<const std::uint8_t> bytes) {
+      is_cancelled = !request.take(bytes);
+      return !is_cancelled;
+    };
+  }
   for (int attempt = 1;; ++attempt) {
     if (request.restart) request.restart();
-    auto answer = ask_once(request);
+    auto answer = ask_once(watched);
+    if (is_cancelled) return answer;
     if (answer && !is_passing(answer->status)) return answer;
     if (attempt >= attempts) {
       if (!answer) unreachable_until_ = Clock::now() + kUnreachable;

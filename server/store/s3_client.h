@@ -31,7 +31,8 @@ struct S3Request {
   std::span<const std::uint8_t> body = {};
   Sha256 body_sha256 = sha256({});  // SHA-256 of the body; the store checks it
   // `take` receives the body of a 2xx response in parts. `restart` is called before each attempt,
-  // so that the caller can drop the parts of a failed one.
+  // so that the caller can drop the parts of a failed one. `take` returns false to cancel the
+  // request, which is then not retried.
   std::function<bool(std::span<const std::uint8_t>)> take = {};
   std::function<void()> restart = {};
 };
@@ -46,9 +47,9 @@ class S3Client {
 
   const S3Address& address() const { return address_; }
 
-  // Sends a request, with retries. Returns the last response; kIo if no attempt got a response. For
-  // a moment after that, failed requests are not retried, so that visitors do not wait for a store
-  // that is known to be unreachable.
+  // Sends a request, with retries. Returns the last response; kIo if no attempt got a response.
+  // Later requests that fail are then not retried for a moment, because visitors must not wait for
+  // an unreachable store.
   Expected<RemoteAnswer> ask(const S3Request& request);
 
   // Returns a kIo error that states the refused action, the cause and the next step.

@@ -133,7 +133,7 @@ Expected<void> S3Store::give_up_uploads(std::int64_t begun_before) {
   return {};
 }
 
-// Lists the marks after the objects, so that marks set during the first listing are not missed.
+// Lists the grace marks after the objects, so that no mark set during the first listing is missed.
 Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                      const ExclusiveLock& lock) {
   const auto objects = list(kObjects);
@@ -174,9 +174,29 @@ Expected<std::unique_ptr<Object>> S3Store::open(const Sha256& name) const {
     auto object = std::move(*copy).finish(name);
     if (!object || *object != nullptr) return object;
   }
-  return fail(ErrorCode::kIo,
-              fmt::format("object {} is damaged in s3://{}; publish its model again", to_hex(name),
-                          client_.address().bucket));
+  return fail(ErrorCode::kState,
+              fmt::format("object {} is damaged in s3://{}; put it back with 'vitrine repair'",
+                          to_hex(name), client_.address().bucket));
+}
+
+// Hashes the bytes while they arrive and keeps no copy. If they arrive damaged, downloads them once
+// more.
+Expected<ObjectState> S3Store::check(const Sha256& name, const OnPiece& on_piece) const {
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    Sha256Hasher hasher;
+    const auto answer = client_.ask({.key = object_key(name),
+                                     .take =
+                                         [&](std::span<const std::uint8_t> bytes) {
+                                           hasher.add(bytes);
+                                           return on_piece(bytes.size());
+                                         },
+                                     .restart = [&] { hasher = {}; }});
+    if (!answer) return tl::unexpected(answer.error());
+    if (is_absent(*answer)) return ObjectState::kMissing;
+    if (answer->status != 200) return client_.refused("read an object", *answer);
+    if (hasher.finish() == name) return ObjectState::kIntact;
+  }
+  return ObjectState::kDamaged;
 }
 
 Expected<std::optional<std::uint64_t>> S3Store::size_of(const Sha256& name) const {

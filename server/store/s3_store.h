@@ -29,7 +29,7 @@ struct S3Options {
 class S3Store final : public ObjectStore {
  public:
   // Opens the store. Tests access to the bucket: writes, reads, lists and removes a small object.
-  // kIo with the refused step if the test fails.
+  // If the test fails, returns kIo and names the step that failed.
   static Expected<std::unique_ptr<S3Store>> open(S3Options options);
 
   Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
@@ -39,6 +39,7 @@ class S3Store final : public ObjectStore {
   Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                               const ExclusiveLock& lock) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
+  Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const override;
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
 
  private:

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store/stored_file.h"
 
+#include <algorithm>
+#include <bitset>
+
+#include "codec/format/file_blocks.h"
+
 namespace vitrine::server {
 namespace {
 
@@ -16,11 +21,11 @@ Expected<void> check_stored(const ObjectStore& store, const StoredFile& file) {
   if (!object) return tl::unexpected(object.error());
   if (*object == nullptr)
     return fail(ErrorCode::kIo, "the stored file has disappeared; check the data folder");
-  for (const ChunkPlace& place : file.chunks()) {
+  for (const ChunkPlace& place : file.blocks()) {
     const auto bytes = (*object)->read(place.offset, place.length);
     if (!bytes) return tl::unexpected(bytes.error());
     if (sha256(*bytes) != place.chunk) {
-      return fail(ErrorCode::kBadInput, "the chunk at byte " + std::to_string(place.offset) +
+      return fail(ErrorCode::kBadInput, "the part at byte " + std::to_string(place.offset) +
                                             " does not have its SHA-256; build the file again");
     }
   }
@@ -29,12 +34,12 @@ Expected<void> check_stored(const ObjectStore& store, const StoredFile& file) {
 
 }  // namespace
 
-std::vector<ChunkPlace> StoredFile::chunks() const {
+std::vector<ChunkPlace> StoredFile::blocks() const {
   std::vector<ChunkPlace> result;
   result.reserve(manifest.chunks.size() + 1);
-  result.push_back({manifest.base_sha256, manifest.base_offset, manifest.base_length});
-  for (const ChunkInfo& c : manifest.chunks)
-    result.push_back({c.sha256, c.offset, c.length});
+  for_each_block(manifest, [&](const FileBlock& block) {
+    result.push_back({block.sha256, block.offset, block.length});
+  });
   return result;
 }
 
@@ -47,17 +52,29 @@ Expected<StoredFile> to_be_stored(std::span<const std::uint8_t> pmesh) {
 
 Expected<void> store_file(ObjectStore& store, StoredFile& file,
                           std::span<const std::uint8_t> pmesh) {
-  const auto before = store.open(file.name);
+  const auto before = store.size_of(file.name);
   if (!before) return tl::unexpected(before.error());
   const auto written = store.put(file.name, pmesh);
   if (!written) return tl::unexpected(written.error());
-  file.is_new = *before == nullptr;
+  file.is_new = !*before;
   file.is_repaired = *written && !file.is_new;
   auto checked = check_stored(store, file);
   // Ignores an error of the removal, because the check's error is the one to report. The removal
   // works even on a full disk.
   if (!checked && file.is_new) static_cast<void>(store.remove(file.name));
   return checked;
+}
+
+TextureSummary summary_of(const TextureInfo& texture) {
+  TextureSummary summary;
+  std::bitset<kPictureRoles> roles;
+  for (const PictureInfo& picture : texture.pictures) {
+    roles.set(static_cast<std::size_t>(picture.role));
+    summary.largest_side = std::max(summary.largest_side, picture.side);
+    summary.bytes += picture.length;
+  }
+  summary.count = static_cast<std::uint32_t>(roles.count());
+  return summary;
 }
 
 void describe(ModelRecord& record, const StoredFile& file) {
@@ -67,6 +84,7 @@ void describe(ModelRecord& record, const StoredFile& file) {
   record.head_bytes = manifest.head_bytes();
   record.faces = manifest.levels.back().faces;
   record.vertices = manifest.levels.back().vertices;
+  record.textures = summary_of(manifest.texture);
   record.unit = manifest.unit;
 }
 

@@ -14,7 +14,7 @@ struct StoredFile {
   bool is_new = false;       // whether the store did not have the file before
   bool is_repaired = false;  // whether the stored object was damaged before
 
-  std::vector<ChunkPlace> chunks() const;  // positions of the base mesh and chunks
+  std::vector<ChunkPlace> blocks() const;  // positions of all blocks of the file
 };
 
 // Returns the description of a file that will be stored. kBadInput if its header or its length is
@@ -22,11 +22,13 @@ struct StoredFile {
 Expected<StoredFile> to_be_stored(std::span<const std::uint8_t> pmesh);
 
 // Stores the bytes `pmesh`, which `file` describes, and sets `is_new` and `is_repaired`. Reads the
-// object back and checks the SHA-256 of the base and of every chunk, so that visitors receive what
-// the header describes. If a check fails, removes a new object and fails with kBadInput. The caller
-// holds the store's lock.
+// object back and checks the SHA-256 of every block, so that visitors receive what the header
+// describes. If a check fails, removes a new object and fails with kBadInput. The caller holds the
+// store's lock.
 Expected<void> store_file(ObjectStore& store, StoredFile& file,
                           std::span<const std::uint8_t> pmesh);
+
+TextureSummary summary_of(const TextureInfo& texture);
 
 // Copies the description of the file to the model's record.
 void describe(ModelRecord& record, const StoredFile& file);

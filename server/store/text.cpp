@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store/text.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -35,6 +37,31 @@ bool is_plain_text(std::string_view text) noexcept {
     text.remove_prefix(length);
   }
   return true;
+}
+
+std::string as_plain_text(std::string_view text) {
+  std::string plain;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    if (length > 0) {
+      plain += text.substr(0, length);
+    } else {
+      plain += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(text[0]));
+    }
+    text.remove_prefix(length > 0 ? length : 1);
+  }
+  return plain;
+}
+
+bool is_line(std::string_view text) noexcept {
+  return text.size() <= kMaxLineBytes && is_plain_text(text);
+}
+
+bool is_paragraphs(std::string_view text) noexcept {
+  if (text.size() > kMaxParagraphBytes) return false;
+  for (std::size_t end = 0; (end = text.find('\n')) != text.npos; text.remove_prefix(end + 1))
+    if (!is_plain_text(text.substr(0, end))) return false;
+  return is_plain_text(text);
 }
 
 }  // namespace vitrine::server

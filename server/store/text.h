@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks texts from clients before they are shown to people.
+// Checks texts from outside before they are shown to people.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace vitrine::server {
@@ -9,5 +11,17 @@ namespace vitrine::server {
 // Whether `text` is well-formed UTF-8 (RFC 3629: no overlong forms, no surrogates) without control
 // characters.
 bool is_plain_text(std::string_view text) noexcept;
+
+// Returns `text` as one line of plain text: replaces each byte of a control character, and each
+// byte that is not UTF-8, by \xNN.
+std::string as_plain_text(std::string_view text);
+
+// Largest sizes in bytes of a text of one line, and of a text of several paragraphs.
+inline constexpr std::size_t kMaxLineBytes = 4096, kMaxParagraphBytes = 16'384;
+
+// Whether `text` is a line that may be shown: plain text of at most kMaxLineBytes.
+bool is_line(std::string_view text) noexcept;
+// Whether `text` is plain text but for line feeds, and has at most kMaxParagraphBytes.
+bool is_paragraphs(std::string_view text) noexcept;
 
 }  // namespace vitrine::server

@@ -55,7 +55,8 @@ std::optional<std::uint64_t> size_of(int fd) {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-// Writes the bytes at `offset` and advances it. If the disk becomes full, keeps the bytes that fit.
+// Writes the bytes at `offset` and advances `offset`. If the disk becomes full, keeps the bytes
+// that fit.
 Uploading<void> write_all(int fd, std::span<const std::uint8_t> bytes, std::uint64_t& offset) {
   while (!bytes.empty()) {
     const ssize_t n = ::pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -107,6 +108,17 @@ Uploading<void> UploadWriter::append(std::span<const std::uint8_t> bytes) {
   return write_all(file_.get(), bytes, offset_);
 }
 
+Uploading<void> UploadWriter::take_back() {
+  const ScopedLock lock(file_.get());
+  const auto size = size_of(file_.get());
+  if (!lock.is_held() || !size) return refused("shorten", errno);
+  // If the size differs, another writer has continued behind these bytes.
+  if (*size != offset_) return {};
+  if (::ftruncate(file_.get(), static_cast<off_t>(start_)) != 0) return refused("shorten", errno);
+  offset_ = start_;
+  return {};
+}
+
 Uploading<std::uint64_t> UploadWriter::sync() {
   if (::fsync(file_.get()) != 0) return refused("keep", errno);
   return offset_;
@@ -122,13 +134,30 @@ Uploading<FileDescriptor> Uploads::lock() const {
   return folder;
 }
 
-Uploading<Upload> Uploads::create(const TokenId& token, std::uint64_t length,
+// Writes the file that describes an upload.
+Uploading<void> Uploads::describe(const UploadId& id, const TokenId& token,
+                                  std::optional<std::uint64_t> length,
+                                  const std::string& metadata) const {
+  nlohmann::json about = {
+      {"token", token.to_string()}, {"length", nullptr}, {"metadata", metadata}};
+  if (length) about["length"] = *length;
+  const std::string text = about.dump();
+  const auto kept = write_file_atomically(
+      path_of(id, kAbout), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  if (kept) return {};
+  const bool is_full = kept.error().code == ErrorCode::kLimit;
+  return refused("make", is_full ? ENOSPC : EIO);
+}
+
+tl::unexpected<UploadFault> Uploads::too_large() const {
+  return fault(UploadFault::kTooLarge,
+               fmt::format("an upload may have {} bytes at most", limits_.bytes));
+}
+
+Uploading<Upload> Uploads::create(const TokenId& token, std::optional<std::uint64_t> length,
                                   const std::string& metadata) {
-  if (length > limits_.bytes) {
-    return fault(UploadFault::kTooLarge,
-                 fmt::format("an upload may have {} bytes at most", limits_.bytes));
-  }
-  if (::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST) return refused("make", errno);
+  if (length && *length > limits_.bytes) return too_large();
+  if (::mkdir(folder_.c_str(), S_IRWXU) != 0 && errno != EEXIST) return refused("make", errno);
   const auto locked = lock();
   if (!locked) return tl::unexpected(locked.error());
   const auto all = list();
@@ -142,16 +171,28 @@ Uploading<Upload> Uploads::create(const TokenId& token, std::uint64_t length,
   const FileDescriptor bytes(
       ::open(path_of(id, kBytes).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!bytes) return refused("make", errno);
-  const std::string about = nlohmann::json{
-      {"token", token.to_string()},
-      {"length", length},
-      {"metadata", metadata}}.dump();
-  const auto kept = write_file_atomically(
-      path_of(id, kAbout), {reinterpret_cast<const std::uint8_t*>(about.data()), about.size()});
-  if (kept) return find(id);
-  const int error = errno;
+  const auto described = describe(id, token, length, metadata);
+  if (described) return find(id);
   ::unlink(path_of(id, kBytes).c_str());
-  return refused("make", error);
+  return tl::unexpected(described.error());
+}
+
+Uploading<void> Uploads::state_length(const UploadId& id, std::uint64_t length) {
+  const auto locked = lock();
+  if (!locked) return tl::unexpected(locked.error());
+  const auto upload = read(id);
+  if (!upload) return tl::unexpected(upload.error());
+  if (upload->is_length_known && upload->length == length) return {};
+  if (upload->is_length_known) {
+    return fault(UploadFault::kMoved,
+                 fmt::format("the upload's length is {} and does not change", upload->length));
+  }
+  if (length > limits_.bytes) return too_large();
+  if (length < upload->offset) {
+    return fault(UploadFault::kTooLarge,
+                 fmt::format("the upload has {} bytes already", upload->offset));
+  }
+  return describe(id, upload->token, length, upload->metadata);
 }
 
 Uploading<Upload> Uploads::read(const UploadId& id) const {
@@ -168,7 +209,9 @@ Uploading<Upload> Uploads::read(const UploadId& id) const {
   Upload upload;
   upload.id = id;
   upload.token = TokenId::parse(json.value("token", "")).value_or(TokenId());
-  upload.length = json.value("length", std::uint64_t{0});
+  const auto length = json.find("length");
+  upload.is_length_known = length == json.end() || !length->is_null();
+  upload.length = upload.is_length_known ? json.value("length", std::uint64_t{0}) : limits_.bytes;
   upload.offset = static_cast<std::uint64_t>(status.st_size);
   upload.metadata = json.value("metadata", "");
   upload.expires = std::int64_t{status.st_mtim.tv_sec} * 1000 +
@@ -248,7 +291,7 @@ Uploading<std::size_t> Uploads::sweep(const std::set<UploadId>& in_use, std::int
     const auto id = id_of(file);
     const auto upload = id ? read(*id) : gone();
     if (upload && (upload->expires > now || in_use.contains(*id))) continue;
-    // An upload that cannot be read may still be in use.
+    // Keeps an upload that cannot be read, because it may still be in use.
     if (!upload && upload.error().cause != UploadFault::kGone) continue;
     if (file.extension() == kAbout) ++swept;
     ::unlink(file.c_str());

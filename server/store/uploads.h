@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -20,13 +21,15 @@ namespace vitrine::server {
 
 struct Upload {
   UploadId id;
-  TokenId token;             // ID of the owner's token
-  std::uint64_t length = 0;  // bytes in total
+  TokenId token;  // ID of the owner's token
+  // Bytes in total. If the client has not stated its length yet, the largest size of an upload.
+  std::uint64_t length = 0;
+  bool is_length_known = true;
   std::uint64_t offset = 0;  // bytes received
   std::string metadata;      // printable ASCII, as the client sent it
   std::int64_t expires = 0;  // milliseconds since 1970, UTC; extended by each part received
 
-  bool is_whole() const { return offset == length; }
+  bool is_whole() const { return is_length_known && offset == length; }
 };
 
 struct UploadLimits {
@@ -39,7 +42,7 @@ struct UploadFault {
   enum Cause {
     kTooLarge,  // the upload is larger than allowed or announced
     kTooMany,   // too many open uploads for this token
-    kMoved,     // the client's offset differs from the upload's
+    kMoved,     // the client's offset or length differs from the upload's
     kGone,      // the upload does not exist
     kNoRoom,    // the disk is full
     kIo,
@@ -55,16 +58,19 @@ class UploadWriter {
  public:
   Uploading<void> append(std::span<const std::uint8_t> bytes);
 
+  // Removes the bytes that this writer has appended.
+  Uploading<void> take_back();
+
   // Waits until all appended bytes are on the disk, then returns the new offset.
   Uploading<std::uint64_t> sync();
 
  private:
   friend class Uploads;
   UploadWriter(FileDescriptor file, std::uint64_t offset, std::uint64_t length)
-      : file_(std::move(file)), offset_(offset), length_(length) {}
+      : file_(std::move(file)), start_(offset), offset_(offset), length_(length) {}
 
   FileDescriptor file_;
-  std::uint64_t offset_, length_;
+  std::uint64_t start_, offset_, length_;
 };
 
 // Safe to use from several threads and processes at once.
@@ -76,8 +82,14 @@ class Uploads {
 
   const UploadLimits& limits() const { return limits_; }
 
-  // Creates an empty upload. Fails with kTooLarge or kTooMany.
-  Uploading<Upload> create(const TokenId& token, std::uint64_t length, const std::string& metadata);
+  // Creates an empty upload. `length` is nullopt if the client will state it later. Fails with
+  // kTooLarge or kTooMany.
+  Uploading<Upload> create(const TokenId& token, std::optional<std::uint64_t> length,
+                           const std::string& metadata);
+
+  // States the length of an upload. Fails with kTooLarge if the length exceeds the limit or is
+  // smaller than the offset, and with kMoved if another length is known already.
+  Uploading<void> state_length(const UploadId& id, std::uint64_t length);
 
   // Returns an upload; kGone if it does not exist. The bytes before its offset are on the disk.
   Uploading<Upload> find(const UploadId& id) const;
@@ -85,7 +97,8 @@ class Uploads {
   // offset is a different one.
   Uploading<UploadWriter> writer(const UploadId& id, std::uint64_t offset) const;
 
-  // Opens the file of a complete upload. kGone if the upload does not exist or is incomplete; kIo.
+  // Opens the file of a complete upload. kGone if the upload does not exist or is incomplete, kIo
+  // if the file cannot be opened.
   Uploading<FileDescriptor> open(const UploadId& id) const;
 
   Uploading<void> remove(const UploadId& id);  // fails with kGone if the upload does not exist
@@ -104,6 +117,9 @@ class Uploads {
   std::filesystem::path path_of(const UploadId& id, const char* suffix) const;
   Uploading<FileDescriptor> lock() const;
   Uploading<Upload> read(const UploadId& id) const;
+  tl::unexpected<UploadFault> too_large() const;
+  Uploading<void> describe(const UploadId& id, const TokenId& token,
+                           std::optional<std::uint64_t> length, const std::string& metadata) const;
 
   const std::filesystem::path folder_;
   const UploadLimits limits_;

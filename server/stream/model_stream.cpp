@@ -69,8 +69,8 @@ std::uint64_t ModelStream::left_of(std::size_t chunk) const {
   return part == interrupted_.end() ? length : length - part->offset;
 }
 
-// Whether to send one more chunk. True if everything then arrives by the deadline. Also true if it
-// arrives a little late, but closer to the deadline than without the chunk.
+// Whether to send one more chunk. True if all bytes, with this chunk, arrive by the deadline. Also
+// true if they arrive a little late, but closer to the deadline than without the chunk.
 bool ModelStream::is_in_time(Ends ends, Pacer::Time now) const {
   const double left = (timed_->deadline - now).count();
   const double late = ends.with - left, early = left - ends.without;

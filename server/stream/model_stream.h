@@ -35,7 +35,7 @@ struct Share {
 class ModelStream {
  public:
   // The manifest must outlive this object. Before the first detail request, sends only the model's
-  // head (header and base mesh), and only if `head` is true.
+  // head (Manifest::head_bytes()), and only if `head` is true.
   ModelStream(std::uint16_t number, const Manifest& manifest, bool head)
       : number_(number), manifest_(&manifest), head_(head) {}
 

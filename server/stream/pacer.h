@@ -32,8 +32,8 @@ class Pacer {
 
   // Returns the size in bytes of the slice that may be sent now, or 0 if none may be sent.
   // `busy_streams` is the number of connections with bytes in flight, including this one. If
-  // nothing has been sent or has arrived for kNudge, always allows a slice, since the client may
-  // acknowledge only several slices together.
+  // nothing was sent and nothing has arrived for kNudge, always allows a slice, since the client
+  // may acknowledge only several slices together.
   std::uint32_t room(Time now, std::size_t busy_streams);
 
   bool is_measured() const { return is_measured_; }
@@ -41,7 +41,7 @@ class Pacer {
   // rate falls while nothing arrives.
   double rate(Time now) const;
   // Whether the rate is dropping: a slice is late, or the newest part of the window is much slower
-  // than the whole window. It is then not yet known how low rate() will fall.
+  // than the whole window. How low rate() will fall is unknown then.
   bool is_falling(Time now) const;
 
   // Returns an optimistic rate. Before the first measurement, it is an estimate from the few bytes
@@ -74,9 +74,9 @@ class Pacer {
   static constexpr double kFirstWindow = 16 * 1024;
   static constexpr double kLeastWindow = 4 * 1024;
   static constexpr double kMostWindow = 16 << 20;
-  // Limit on the bytes in flight of all connections together, beyond the bytes that each
-  // connection's own delay and queue account for. kUnknownShared applies to a connection whose own
-  // delay is unknown. It is larger, so that distant clients behind a proxy are not slowed down.
+  // Limit on the bytes in flight of all connections together, without those that each connection's
+  // own delay and queue account for. A connection whose own delay is unknown has the larger limit
+  // kUnknownShared, so that distant clients behind a proxy are not slowed down.
   static constexpr double kShared = 256 * 1024, kUnknownShared = 8 << 20;
 
   struct Mark {
@@ -105,7 +105,7 @@ class Pacer {
   bool is_measured_ = false;
   double steady_ = 0;      // the rate without stalls
   Time heard_{};           // time of the last arrival, or of a send with nothing in flight
-  Duration recovered_{0};  // busy_ at the end of the last stall
+  Duration recovered_{0};  // value of busy_ at the end of the last stall
   Duration base_ = Duration::max();  // the shortest round trip to the client
   Time base_since_{};
   // Whether room() first lets the bytes in flight arrive, so that base_ is measured without a

@@ -18,13 +18,13 @@ struct ModelMessage {
   std::string sha256;  // SHA-256 of the model's file, 64 hexadecimal digits
   std::uint64_t chunks = 0;
   std::uint64_t head_bytes = 0;
-  std::uint64_t slice_bytes = 0;  // largest payload of a slice
+  std::uint64_t slice_bytes = 0;  // largest payload of a slice, in bytes
   std::uint64_t credit = 0;       // remaining credit of the connection
   bool operator==(const ModelMessage&) const = default;
 };
 
-// The answer to a request for `seconds`: the detail that the client will hold in time. Replaces the
-// last promise.
+// Promises the detail that the client will hold when the `seconds` of its request have passed.
+// Replaces the last promise.
 struct PromiseMessage {
   std::uint16_t model = 0;
   std::uint32_t turn = 0;       // `turn` of the request

@@ -134,6 +134,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 
   asio::awaitable<Expected<void>> find_and_open(const OpenMessage& wanted) {
     auto model = co_await host_.find(wanted.id);
+    if (goodbye_) co_return Expected<void>{};
     co_return model ? open(wanted, std::move(*model))
                     : answer(ClosedMessage{wanted.model, model.error().message});
   }
@@ -153,7 +154,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 
   Expected<void> act_on(const ClientMessage& message) {
     if (const auto* unwanted = std::get_if<CloseMessage>(&message)) {
-      models_.erase(unwanted->model);
+      if (models_.erase(unwanted->model) > 0) tell_models();
       if (auto fits = answer(ClosedMessage{unwanted->model, "as asked"}); !fits) return fits;
     }
     return state_.receive(message, now());
@@ -169,7 +170,15 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
                                .slice_bytes = kMaxSlice,
                                .credit = state_.credit()};
     models_[wanted.model] = std::move(model);
+    tell_models();
     return answer(message);
+  }
+
+  void tell_models() {
+    std::vector<Model> models;
+    for (const auto& [number, model] : models_)
+      models.push_back(model);
+    host_.shows(std::move(models));
   }
 
   Expected<void> answer(const ServerMessage& message) {
@@ -179,8 +188,14 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     return {};
   }
 
+  // Closes the models' files at once, because a client that does not answer keeps the connection
+  // open until the timeout.
   void close_with(websocket::close_reason reason) {
     if (!goodbye_) goodbye_ = std::move(reason);
+    state_ = {};
+    models_.clear();
+    tell_models();
+    mark_.set(false);
     change_.cancel();
   }
 
@@ -231,8 +246,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   }
 
   asio::awaitable<bool> send_slice(Slice slice) {
-    const Model model = models_[slice.header.model];
-    const auto payload = model->read({slice.at, slice.length});
+    const auto payload = models_[slice.header.model]->read({slice.at, slice.length});
     if (!payload) {
       close_with(websocket::close_code::internal_error);
       co_return true;

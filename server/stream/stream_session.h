@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "server/store/published_model.h"
 #include "server/stream/busy_streams.h"
@@ -29,6 +30,8 @@ class StreamHost {
   // opened. Called for each `want`. If the result is false, the connection ends with close code
   // 1012.
   virtual boost::asio::awaitable<bool> is_current(StreamedModel model) = 0;
+  // Called each time a model is opened or closed, with all models that are open then.
+  virtual void shows(std::vector<StreamedModel> models) = 0;
   // Called once, when the stream starts. The host must call `stop` on the socket's strand when the
   // daemon stops; `stop` then closes the connection with close code 1012.
   virtual void on_drain(std::function<void()> stop) = 0;
@@ -43,7 +46,8 @@ class StreamHost {
 };
 
 struct StreamOptions {
-  // Limit for the handshake. A peer that stays silent for this time is pinged, then disconnected.
+  // Time limit for the handshake. Later, a peer that stays silent for this time is pinged, then
+  // disconnected.
   std::chrono::seconds timeout{30};
   bool sends_head = false;  // whether to send the model's head first
   bool is_direct = false;   // whether the socket's peer is the client, not a proxy

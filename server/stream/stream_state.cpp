@@ -6,7 +6,7 @@
 namespace vitrine::server {
 namespace {
 
-constexpr Pacer::Duration kPoll{0.02};         // interval at which the kernel's queue is read
+constexpr Pacer::Duration kPoll{0.02};  // interval at which the kernel's send queue is checked
 constexpr Pacer::Duration kNewsInterval{0.1};  // interval at which promises are checked
 
 }  // namespace
@@ -93,8 +93,8 @@ StreamOutput StreamState::next(Time now, std::size_t busy_streams) {
   return {};
 }
 
-// Counts `bytes` as sent for `model`. Raises the counts of models with nothing to send to that of
-// `model`, so that idle time gives them no claim to later bandwidth.
+// Counts `bytes` as sent for `model`. Raises the counts of models with nothing to send to the count
+// of `model`, so that they cannot make up for their idle time later.
 void StreamState::serve(Sharer& model, std::uint32_t bytes, Time now) {
   credit_ -= bytes;
   sent_ += bytes;

@@ -45,7 +45,8 @@ class StreamState {
   // Reports the number of bytes still queued in the kernel. Counts the other sent bytes as arrived.
   void still_queued(std::uint64_t bytes, Time now);
 
-  // Sets the round-trip time of the connection itself. Call this only if no proxy is in between.
+  // Sets the round-trip time of the connection itself. Call this only if there is no proxy between
+  // server and client.
   void know_delay(Pacer::Duration own) { pacer_.know_delay(own); }
 
   std::uint64_t credit() const { return credit_; }

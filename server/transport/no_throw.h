@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The completion token of asynchronous calls whose errors are handled in place.
+// Defines the completion token for asynchronous calls that return their errors instead of throwing.
 #pragma once
 
 #include <boost/asio/as_tuple.hpp>

@@ -25,7 +25,7 @@ Unexpected bad(const std::filesystem::path& file, std::string_view fault, std::s
   return fail(ErrorCode::kBadInput, fmt::format("{}: {}; {}", file.string(), fault, step));
 }
 
-// Checks that a file can be read, since OpenSSL's message does not explain why it cannot.
+// Checks that a file is readable, because OpenSSL's error message does not contain the reason.
 Expected<void> check_readable(const std::filesystem::path& file) {
   std::error_code ignored;
   int error = std::filesystem::is_directory(file, ignored) ? EISDIR : 0;

@@ -21,7 +21,8 @@
 namespace vitrine::server {
 
 struct WebSocketLimits {
-  // Limit for the handshake. A peer that stays silent for this time is pinged, then disconnected.
+  // Time limit for the handshake. Later, a peer that stays silent for this time is pinged, then
+  // disconnected.
   std::chrono::seconds timeout{30};
   // Size of the largest message in bytes; a longer one from the peer ends the connection.
   std::size_t message = 64 * 1024;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a cluster's PostgreSQL server and Ceph gateway, by scripts of tests/support/process, and creates the cluster's
-// database and bucket in them.
+// Runs a cluster's PostgreSQL server and Ceph gateway with scripts of tests/support/process.
+// Creates the cluster's database and bucket in them.
 import { execFile, spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdtemp, rm } from "node:fs/promises";
@@ -13,8 +13,8 @@ import { promisify } from "node:util";
 const run = promisify(execFile);
 
 /**
- * A server that a script of tests/support/process runs. The script prints the port first, then one line for each
- * command.
+ * A server that a script of tests/support/process runs. The script first prints the port. Then it prints one line for
+ * each command that it receives.
  */
 class Backend {
   async start(script) {

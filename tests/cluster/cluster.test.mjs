@@ -73,7 +73,7 @@ after(() => cluster.end());
 async function build({ obj }, number) {
   const [source, target] = ["obj", "pmesh"].map((kind) => join(cluster.folder, `${number}.${kind}`));
   await writeFile(source, obj);
-  await cluster.vitrine("build", source, "-o", target);
+  await cluster.vitrine("build", source, "--force", "-o", target);
   return sha256(await readFile(target));
 }
 
@@ -106,13 +106,14 @@ async function serversDie() {
 }
 
 /**
- * Suspends a replica that runs a job, and resumes the replica when it no longer holds the job, because another one has
- * claimed the job. Returns false if the job ended before the replica was suspended.
+ * Suspends a replica that runs a job. Resumes the replica after another one has claimed the job.
+ * Returns false if the job ended before the replica was suspended.
  */
 async function sleepsAtWork() {
   const sleeper = await cluster.builder(), held = `SELECT 1 FROM job WHERE state = 1 AND holder = '${await sleeper.holder()}'`;
   sleeper.signal("SIGSTOP");
-  const isAtWork = (await cluster.postgres.query(held)).length > 0; // the job may have ended meanwhile
+  // The job may have ended before the replica was suspended.
+  const isAtWork = (await cluster.postgres.query(held)).length > 0;
   while ((await cluster.postgres.query(held)).length > 0) await pause(500);
   sleeper.signal("SIGCONT");
   return isAtWork;
@@ -125,8 +126,8 @@ async function buildersDieAndSleep() {
 }
 
 /**
- * Faults during a scan: a daemon that is killed continues the scan at the same step after its restart; a daemon that is
- * suspended loses the scanner to another daemon, which restarts the scan.
+ * Faults during a scan. A killed daemon continues the scan at the same step after its restart. A suspended daemon loses
+ * the scanner to another daemon, which restarts the scan.
  */
 async function driversDieAndSleep() {
   await technician.turned(1);
@@ -145,7 +146,7 @@ async function driversDieAndSleep() {
   await technician.turned(5);
 }
 
-/** Stops a back end for a while, and kills a replica meanwhile. */
+/** Stops a back end for a while, and kills a replica during that time. */
 async function without(engine) {
   note("a back end is stopped");
   const from = performance.now();
@@ -157,7 +158,8 @@ async function without(engine) {
   await pause(kAway - dies);
   await engine.ask("start");
   note("the back end is running again");
-  // If a serving replica was killed, viewers may wait for the back end, because no other replica may have local copies.
+  // If a serving replica was killed, viewers may wait for the back end, because the other replicas
+  // may lack local copies.
   if (!cluster.having("serve").includes(victim)) assertSeen(from);
   await dying;
   for (const replica of cluster.replicas) await replica.ready();

@@ -41,7 +41,7 @@ export function halfVisible(looks, deleted) {
 
 /**
  * Reports models that nobody ordered, and ordered models that are missing. `models` are the models in the catalogue,
- * `orders` the orders with their models, and `deleted` the models that must be missing.
+ * and `orders` are the orders with their models. The models in `deleted` must be missing.
  */
 export function unordered(models, orders, deleted) {
   const ordered = new Set(orders.map(({ model }) => model).filter((model) => !deleted.has(model)));

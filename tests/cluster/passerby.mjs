@@ -3,7 +3,7 @@
 import { setTimeout as pause } from "node:timers/promises";
 
 export class Passerby {
-  /** `random` is a function that returns random numbers from 0 to 1. It chooses the chunks. */
+  /** `random` is a function that returns random numbers from 0 to 1. The numbers choose the chunks. */
   constructor(visitor, random) {
     Object.assign(this, { visitor, random, looks: [], stopped: false });
   }

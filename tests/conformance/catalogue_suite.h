@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "server/catalogue/catalogue.h"
+#include "server/catalogue/visits.h"
 #include "support/product_names.h"
 
 namespace vitrine::test {
@@ -14,6 +15,7 @@ class CatalogueBackend {
   virtual ~CatalogueBackend() = default;
   // Opens a new connection to the same catalogue, which is empty at first.
   virtual std::unique_ptr<Catalogue> connect() = 0;
+  virtual std::unique_ptr<VisitCatalogue> connect_visits() = 0;
 };
 
 std::unique_ptr<CatalogueBackend> make_catalogue_backend();

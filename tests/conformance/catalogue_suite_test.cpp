@@ -32,7 +32,8 @@ ModelRecord model(std::uint8_t value, const std::string& title = "A skull",
           .file_bytes = 1'000,
           .head_bytes = 100,
           .faces = 20,
-          .vertices = 12};
+          .vertices = 12,
+          .textures = {.count = 2, .largest_side = 2'048, .bytes = 700}};
 }
 
 class CatalogueSuite : public testing::Test {
@@ -70,6 +71,7 @@ TEST_F(CatalogueSuite, AModelIsFoundAsItWasAdded) {
   EXPECT_EQ(found->head_bytes, added.head_bytes);
   EXPECT_EQ(found->faces, added.faces);
   EXPECT_EQ(found->vertices, added.vertices);
+  EXPECT_EQ(found->textures, added.textures);
 }
 
 TEST_F(CatalogueSuite, TheNewestPublishedModelOfAFileAndItsTextsIsFound) {
@@ -143,7 +145,7 @@ TEST_F(CatalogueSuite, PagesFollowEachOtherWithoutGapOrRepetition) {
     EXPECT_LE(page.models.size(), 3u);
     for (const auto& m : page.models)
       seen.push_back(m.id);
-    // models that are added meanwhile must not change the following pages
+    // Models that are added between two pages must not change the later pages.
     add(model(static_cast<std::uint8_t>(100 + seen.size())));
     query.after = page.next;
   } while (query.after);
@@ -273,7 +275,9 @@ TEST_F(CatalogueSuite, AModelIsChangedAsAWholeAndByOneAtATime) {
                                            .file_bytes = 44,
                                            .head_bytes = 11,
                                            .faces = 9,
-                                           .vertices = 8};
+                                           .vertices = 8,
+                                           .textures = {1, 128, 60}};
+  changed.textures = {3, 4'096, 80};
   const ChunkPlace chunks[] = {{digest(9), 200, 20}};
   const auto before = catalogue_->revision().value();
   ASSERT_TRUE(catalogue_->update(changed, chunks));
@@ -294,6 +298,8 @@ TEST_F(CatalogueSuite, AModelIsChangedAsAWholeAndByOneAtATime) {
   EXPECT_EQ(found.public_part->head_bytes, 11u);
   EXPECT_EQ(found.public_part->faces, 9u);
   EXPECT_EQ(found.public_part->vertices, 8u);
+  EXPECT_EQ(found.public_part->textures, (server::TextureSummary{1, 128, 60}));
+  EXPECT_EQ(found.textures, (server::TextureSummary{3, 4'096, 80}));
   EXPECT_EQ(catalogue_->update(changed, std::nullopt).error().code, ErrorCode::kState);
   ASSERT_TRUE(catalogue_->set_state(id_of(1), server::ModelState::kPublished));
   EXPECT_EQ(catalogue_->update(found, std::nullopt).error().code, ErrorCode::kState);
@@ -353,6 +359,35 @@ TEST_F(CatalogueSuite, ATokenIsAddedOnceAndRevokedOnce) {
   EXPECT_EQ(catalogue_->revoke_token(id_of(2)).error().code, ErrorCode::kState);
   ASSERT_TRUE(catalogue_->revoke_token(id_of(1)));
   EXPECT_EQ(catalogue_->revoke_token(id_of(1)).error().code, ErrorCode::kState);
+}
+
+TEST_F(CatalogueSuite, TellsWhichChunksOfAPublishedModelItHides) {
+  std::vector<std::vector<Sha256>> told;
+  catalogue_->when_hidden([&](std::vector<Sha256> chunks) {
+    ASSERT_TRUE(catalogue_->revision());  // the function may use the catalogue
+    told.push_back(std::move(chunks));
+  });
+  const std::vector<std::vector<Sha256>> once = {{digest(7)}};
+  const auto expect_told = [&](const char* change, const std::vector<std::vector<Sha256>>& wanted) {
+    EXPECT_EQ(std::exchange(told, {}), wanted) << change;
+  };
+  const std::vector<server::ChunkPlace> first = {{digest(7), 0, 10}}, second = {{digest(8), 0, 10}};
+  add(model(1), first);
+  ASSERT_TRUE(catalogue_->update(model(1, "A new title"), std::nullopt));
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kPublished));
+  expect_told("a title and a publication hide nothing", {});
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kDraft));
+  expect_told("withdrawal", once);
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kDraft));
+  expect_told("a draft has nothing to hide", {});
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kPublished));
+  EXPECT_FALSE(catalogue_->update(model(1), std::span<const server::ChunkPlace>(second)));
+  expect_told("an update that is refused", {});
+  ASSERT_TRUE(catalogue_->update(*catalogue_->find(id_of(1)).value(),
+                                 std::span<const server::ChunkPlace>(second)));
+  expect_told("replacement", once);
+  ASSERT_TRUE(catalogue_->remove(id_of(1), std::nullopt));
+  expect_told("removal", {{digest(8)}});
 }
 
 }  // namespace

@@ -136,6 +136,31 @@ TEST_F(Claims, OverdueJobsCanBeLeftOut) {
   EXPECT_EQ(left[1].id, id_of(2));
 }
 
+TEST_F(Claims, WaitingJobsComeInTurnsOfTheirOwners) {
+  const auto add_for = [&](const std::string& owner, std::uint8_t first, std::uint8_t last) {
+    for (std::uint8_t value = first; value <= last; ++value) {
+      server::JobRecord job = build_job(value);
+      job.owner = owner;
+      add(job);
+    }
+  };
+  const auto next = [&](std::uint32_t limit) {
+    std::vector<JobId> ids;
+    const auto waiting = jobs_->waiting_jobs(kBuilds, limit, false).value();
+    for (const JobRecord& job : waiting)
+      ids.push_back(job.id);
+    return ids;
+  };
+  add_for("many", 1, 20);
+  add_for("few", 21, 22);
+  EXPECT_EQ(next(4), (std::vector<JobId>{id_of(1), id_of(21), id_of(2), id_of(22)}));
+  claim(1, kLong);
+  EXPECT_EQ(next(4), (std::vector<JobId>{id_of(21), id_of(2), id_of(22), id_of(3)}));
+  claim(21, kLong);
+  claim(2, kLong);
+  EXPECT_EQ(next(2), (std::vector<JobId>{id_of(22), id_of(3)}));
+}
+
 TEST_F(Claims, OnlyTheHolderOfItsJobUpdatesAScan) {
   server::JobRecord job = build_job(1);
   job.kind = JobKind::kScan;
@@ -173,6 +198,14 @@ TEST_F(Claims, AJobThatIsNotRunningIsCancelledAtOnce) {
   }
   EXPECT_FALSE(jobs_->update(late));
   EXPECT_EQ(jobs_->cancel(id_of(9), 1).error().code, ErrorCode::kState);
+}
+
+TEST_F(Claims, AJobWhoseModelIsStoredIsDoneIfItIsCancelledAfterItsDaemonDied) {
+  JobRecord job = build_job(1);
+  job.model = ModelId::generate();
+  add(job);
+  claim(1, kOver);
+  EXPECT_EQ(jobs_->cancel(id_of(1), 1).value().state, JobState::kDone);
 }
 
 TEST_F(Claims, ARunningJobLearnsOfACancellation) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// IDs for tests: id_of(1) converts to the ID of a model, job, scan or token, and differs from
+// Makes IDs for tests. id_of(1) converts to the ID of a model, job, scan or token, and differs from
 // id_of(2).
 #pragma once
 

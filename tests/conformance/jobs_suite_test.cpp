@@ -25,7 +25,9 @@ JobRecord job(std::uint8_t value, JobState state = JobState::kRunning) {
           .created = 1'700'000'000'000 + value,
           .ended = 0,
           .webhook = "https://museum.example/told",
-          .attempts = 2};
+          .attempts = 2,
+          .repairs = "1 duplicate face dropped\n2 edges split",
+          .owner = "a token"};
 }
 
 ScanEntry scan(std::uint8_t value, std::uint8_t job) {
@@ -41,7 +43,8 @@ ScanEntry scan(std::uint8_t value, std::uint8_t job) {
           .calibration = 3,
           .model = id_of(9),
           .created = 1'700'000'000'000,
-          .rows = ScannedRows{.empty = .5, .saturated = .25, .doubled = .125}};
+          .rows = ScannedRows{.empty = .5, .saturated = .25, .doubled = .125},
+          .built = sha256(std::vector<std::uint8_t>{value})};
 }
 
 class JobsSuite : public testing::Test {
@@ -76,6 +79,7 @@ TEST_F(JobsSuite, AnUpdateWritesOverTheWholeRecord) {
   grown.model = std::nullopt;
   grown.rows = std::nullopt;
   grown.revolution = "another";
+  grown.built = std::nullopt;
   ASSERT_TRUE(jobs_->update(changed));
   ASSERT_TRUE(jobs_->update(grown, {id_of(1), 0}));
   EXPECT_EQ(jobs_->find_job(id_of(1)).value(), changed);

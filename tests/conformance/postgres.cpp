@@ -4,6 +4,7 @@
 #include "server/catalogue/postgres_catalogue.h"
 #include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sql_jobs.h"
+#include "server/catalogue/sql_visits.h"
 #include "support/process/postgres_server.h"
 #include "support/product_names.h"
 
@@ -14,6 +15,9 @@ class Postgres final : public CatalogueBackend {
  public:
   std::unique_ptr<Catalogue> connect() override {
     return make_catalogue(postgres::open_database(database_).value().database);
+  }
+  std::unique_ptr<VisitCatalogue> connect_visits() override {
+    return make_visits(postgres::open_database(database_).value().database);
   }
 
  private:

@@ -122,9 +122,29 @@ TEST_F(S3Faults, ADamagedObjectIsRefusedAndReplaced) {
   const auto store = open();
   const auto opened = store->open(sha256(bytes));
   ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kState);
   EXPECT_THAT(opened.error().message, HasSubstr("is damaged in s3://"));
+  std::uint64_t read = 0;
+  const auto check = [&] {
+    return store->check(sha256(bytes), [&](std::uint64_t count) { return read += count, true; });
+  };
+  EXPECT_EQ(check().value(), ObjectState::kDamaged);
+  EXPECT_EQ(read, 2 * bytes.size()) << "a second download excludes damage on the way";
   EXPECT_TRUE(store->put(sha256(bytes), bytes).value());
   EXPECT_EQ(store->open(sha256(bytes)).value()->read(0, bytes.size()).value(), bytes);
+  EXPECT_EQ(check().value(), ObjectState::kIntact);
+  ASSERT_TRUE(store->remove(sha256(bytes)));
+  EXPECT_EQ(check().value(), ObjectState::kMissing);
+}
+
+TEST_F(S3Faults, ACheckThatIsStoppedIsNotTriedAgain) {
+  const auto bytes = many_bytes(1'000);
+  const auto store = open();
+  ASSERT_TRUE(store->put(sha256(bytes), bytes));
+  int pieces = 0;
+  EXPECT_FALSE(store->check(sha256(bytes), [&](std::uint64_t) { return ++pieces, false; }));
+  EXPECT_EQ(pieces, 1);
+  EXPECT_TRUE(store->open(sha256(bytes)));
 }
 
 TEST_F(S3Faults, TheStoreRefusesABodyThatWasChangedOnItsWay) {

@@ -12,11 +12,19 @@ class Gone(Exception):
     """The daemon does not respond: it was killed."""
 
 
+class Ended(Exception):
+    """The daemon ended before it served: `code` is its exit code, negative after a signal, `text` what it printed."""
+
+    def __init__(self, code, text):
+        super().__init__(f"the daemon ended with {code}: {text}")
+        self.code, self.text = code, text
+
+
 class Daemon:
     def __init__(self, binaries, data, options=(), before=()):
         command = [*before, str(binaries / "vitrined"), "--data", str(data), "--listen", "127.0.0.1:0",
-                   "--admin-listen", "127.0.0.1:0", "--access-log", "", "--threads", "2", "--collect-after", "0", *options]
-        self.process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
+                   "--admin-listen", "127.0.0.1:0", "--access-log", "", "--threads", "2", "--collect-after", "0", "--disk-reserve", "0", *options]
+        self.process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, errors="replace",
                                         env={k: v for k, v in os.environ.items() if not k.startswith("VITRINE_")})
         self.printed = []
         self.port = None
@@ -24,7 +32,7 @@ class Daemon:
             line = self.process.stderr.readline()
             self.printed.append(line)
             if not line:
-                raise RuntimeError("the daemon ended: " + "".join(self.printed))
+                raise Ended(self.process.wait(), "".join(self.printed))
             if "listening on http://" in line and "admin" not in line:
                 self.port = int(line.rsplit(":", 1)[1].split('"')[0].strip())
         self.reader = threading.Thread(target=lambda: self.printed.extend(self.process.stderr))

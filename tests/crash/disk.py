@@ -19,6 +19,7 @@ from crash import torus
 from daemon import Client, Daemon, new_token
 
 SIZE = 6 << 20  # bytes of the small disk
+HALF = 100_000  # bytes of one half of an upload
 
 
 def upload(client, content):
@@ -52,6 +53,17 @@ def doctors_word_on_the_disk(binaries, data):
     return next(check for check in report["checks"] if check["check"] == "disk")
 
 
+def an_upload_ends(client, path, data):
+    """Checks that an upload for which the full disk has no room ends, and that its bytes become free."""
+    answer = client.tus("PATCH", path, bytes(HALF), Upload_Offset=HALF)
+    assert answer.status == 507, answer.status
+    assert client.tus("HEAD", path).status == 404
+    assert all(one["id"] not in path for one in client.json("GET", "/api/v1/uploads")[1]["uploads"])
+    assert not list((data / "uploads").glob(path.rsplit("/", 1)[1] + "*"))
+    disk = os.statvfs(data)
+    assert disk.f_bavail * disk.f_frsize >= HALF, disk.f_bavail
+
+
 def a_full_disk(binaries, data):
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={SIZE}", "tmpfs", str(data)], check=True)
     token = new_token(binaries, data)
@@ -60,15 +72,14 @@ def a_full_disk(binaries, data):
     model = job_of(client, upload(client, torus(30, 20))[1])["model"]
 
     status, path = upload(client, bytes(2 * SIZE))
-    assert status == 507, status
-    held = int(client.tus("HEAD", path).getheader("Upload-Offset"))
-    assert 0 < held < 2 * SIZE, held
-    assert is_served(client, model), "while the disk is full"
+    assert status == 507 and path is None, (status, path)  # refused before its first byte
+    assert is_served(client, model), "after an upload was refused"
     assert client.json("GET", "/api/v1/models")[0] == 200
-    assert client.tus("DELETE", path).status == 204
 
     status, mesh = upload(client, torus(60, 40))
     assert status == 204, status
+    half = client.tus("POST", "/api/v1/uploads", Upload_Length=2 * HALF).getheader("Location")
+    assert client.tus("PATCH", half, bytes(HALF), Upload_Offset=0).status == 204
     filler = data / "filler"
     filler.write_bytes(b"")
     with open(filler, "ab", buffering=0) as file:
@@ -82,6 +93,7 @@ def a_full_disk(binaries, data):
         status, problem = client.json(method, address, order)
         assert status == 507 and "free some space" in problem["detail"] and str(data) not in str(problem), (status, problem)
     assert is_served(client, model), "after a job was refused"
+    an_upload_ends(client, half, data)
     filler.unlink()
     job = job_of(client, mesh)
     assert job["state"] == "done" and is_served(client, job["model"]), job

@@ -80,7 +80,7 @@ async function faults(objects) {
     const module = `kubernetes-types/${group?.replace(/\.k8s\.io$/, "") ?? "core"}/${version}`;
     return `const x${i}: import("${module}").${object.kind} = ${JSON.stringify(object)};`;
   });
-  // A file that exists only in memory; from this folder, TypeScript finds node_modules.
+  // This file exists only in memory. It is in the folder web/, so that TypeScript finds node_modules.
   const file = join(root, "web", "manifests.ts");
   const options = { noEmit: true, strict: true, skipLibCheck: true, types: [], moduleResolution: ts.ModuleResolutionKind.Bundler, module: ts.ModuleKind.ESNext, target: ts.ScriptTarget.ES2022 };
   const host = ts.createCompilerHost(options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the attributes of <progressive-mesh>, set before the start and at run time.
+// Tests the attributes of <progressive-mesh>, both before the element starts and while it runs.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { ViewerPage, launch } from "./browser.mjs";
@@ -67,7 +67,7 @@ test("max-bytes and target-error are kept to, and progress tells how much of it 
   const told = (await viewer.events("progress")).map(({ detail }) => detail);
   assert.ok(told.length > 1 && told.every(({ bytes, total }) => bytes <= total));
   assert.deepEqual(told.at(-1), { bytes: some.bytes, total: some.bytes });
-  // Changes both attributes in one call, because two calls would cause two `load` events.
+  // Changes both attributes in one call, because two calls would fire two `load` events.
   await viewer.settled(() => element(viewer).evaluate((viewed, error) => {
     viewed.setAttribute("target-error", error);
     viewed.removeAttribute("max-bytes");
@@ -107,6 +107,8 @@ test("only camera-controls lets the visitor move the camera", async () => {
     return (await orbit(viewer)).theta;
   };
   const touch = () => viewer.page.locator("progressive-mesh canvas").evaluate((canvas) => canvas.style.touchAction);
+  assert.equal(await touch(), "none", "as the object's page says");
+  await set(viewer, "touch-action", null);
   assert.equal(await touch(), "pan-y");
   const still = await drag();
   const turned = await drag();

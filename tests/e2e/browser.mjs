@@ -13,7 +13,9 @@ export function launch() {
   });
 }
 
-const kActionTimeout = 120_000; // ms until an action fails; long, because drawing and compiling may occupy both cores
+// Timeout of an action in milliseconds. It is long, because drawing and compiling may keep both
+// cores busy.
+const kActionTimeout = 120_000;
 
 /** Returns a new browser context without cookies or cache, like a private window. */
 export async function newContext(browser, options) {
@@ -22,7 +24,7 @@ export async function newContext(browser, options) {
   return context;
 }
 
-const kEvents = ["first-paint", "refine", "progress", "load", "error", "camera-change"];
+const kEvents = ["first-paint", "refine", "picture", "memory", "progress", "load", "error", "camera-change"];
 
 /** Runs in the page: sets `attributes` on each <progressive-mesh> as soon as it is in the document. */
 function dress(attributes) {
@@ -37,8 +39,8 @@ function dress(attributes) {
 /** A page with one <progressive-mesh>. Records the page's events, requests and errors. */
 export class ViewerPage {
   /**
-   * Opens the page at `url`. `init` runs in the page before the page's own scripts. `attributes` are set before the
-   * element is defined; by default, the whole model is shown.
+   * Opens the page at `url`. `init` runs in the page before the page's own scripts. `attributes`
+   * are set on the element before it is defined. By default, the element shows the whole model.
    */
   static async open(browser, url, {
     colorScheme = "light", reducedMotion = "reduce", width = 1100, height = 760, init, attributes = { "pixel-error": "0" },
@@ -55,16 +57,17 @@ export class ViewerPage {
   errors = [];
   held = [];
   holding = true;
-  askedChunks = 0; // number of requests for chunks, which all pass through the route handler below
+  askedChunks = 0; // number of requests for chunks, counted by the route handler below
   origins = []; // origins of all HTTP requests
-  // Number of finished requests for chunks; the browser may report them after the page shows the result.
+  // Number of completed requests for chunks. The browser may report a completion later than the
+  // page shows the result.
   finishedChunks = 0;
 
   constructor(page) {
     this.page = page;
   }
 
-  /** Continues the held requests for enhancement layers, and holds no later ones. */
+  /** Continues the held requests for enhancement layers. Later requests are not held. */
   async releaseLayers() {
     this.holding = false;
     await Promise.all(this.held.splice(0).map((route) => route.continue()));
@@ -81,7 +84,7 @@ export class ViewerPage {
     return this.page.evaluate(() => window.seen);
   }
 
-  /** Performs `action` and waits for the next `load` event, which means that the requested detail is shown. */
+  /** Performs `action` and waits for the next `load` event, which says that the requested detail is shown. */
   async settled(action) {
     const before = (await this.seen()).filter(({ type }) => type === "load").length;
     await action();
@@ -95,7 +98,10 @@ export class ViewerPage {
     }, Math.round(1000 * fraction)));
   }
 
-  /** Performs `action`. Waits until more than `count` triangles are shown and a `load` event has followed. */
+  /**
+   * Performs `action`. Waits until more than `count` triangles are shown and a `load` event has
+   * been fired afterwards.
+   */
   async sharpened(count, action) {
     await action();
     await this.page.waitForFunction((few) => {
@@ -127,12 +133,12 @@ export class ViewerPage {
     return this.page.locator("output .triangles").textContent();
   }
 
-  /** Waits for two animation frames, after which all earlier requests to draw have been served. */
+  /** Waits for two animation frames. By then, the page has served all earlier requests to draw. */
   frames() {
     return this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
 
-  /** Takes a screenshot of the element, with the transitions of its controls finished. */
+  /** Takes a screenshot of the element after the transitions of its controls have finished. */
   async picture(path) {
     await this.frames();
     return this.page.locator("progressive-mesh").screenshot({ path, animations: "disabled" });
@@ -140,8 +146,27 @@ export class ViewerPage {
 
   /** Returns the errors that the browser has reported so far. */
   async complaints() {
-    await this.frames(); // the browser sends the reply to this call after all earlier messages of the page
+    // Makes a call to the page. Its reply arrives after all earlier messages of the page.
+    await this.frames();
     return this.errors;
+  }
+
+  /** Makes the viewer lose its WebGL context and get it back. */
+  async loseContext() {
+    await this.page.evaluate(async () => {
+      const place = document.querySelector("progressive-mesh").shadowRoot.querySelector("canvas");
+      const context = place.getContext("webgl2").getExtension("WEBGL_lose_context");
+      const heard = (type) => new Promise((resolve) => place.addEventListener(type, resolve, { once: true }));
+      const lost = heard("webglcontextlost");
+      context.loseContext();
+      await lost;
+      // Waits one frame, because a lost context can be restored only after its event has been
+      // handled.
+      await new Promise(requestAnimationFrame);
+      const restored = heard("webglcontextrestored");
+      context.restoreContext();
+      await restored;
+    });
   }
 
   async #listen() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests an operator's typical tasks in the console, in a real browser with the real daemon: upload a file, publish the
-// model, and delete it.
-// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests an operator's typical tasks in the console, in a real browser with the real daemon: upload
+// a file, publish the model, and delete it.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { mkdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -14,6 +14,9 @@ import { FakeScanner } from "./fake_scanner.mjs";
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
 const kPiece = 8 << 20; // bytes per request of an upload
 const kTetrahedron = Buffer.from("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+
+// A PNG of two pixels, red and blue.
+const kPicture = Buffer.from("iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR42mP4zwAE/wEHAAH/PX2MSQAAAABJRU5ErkJggg==", "base64");
 
 let daemon, browser, operator, admin;
 
@@ -30,7 +33,7 @@ after(async () => {
   await daemon?.stop();
 });
 
-/** Sends a request to the API; uses the operator's token unless `token` is given. */
+/** Sends a request to the API with `token`, by default the operator's. */
 async function asked(path, { token = operator, ...options } = {}) {
   return fetch(`${daemon.url}/api/v1${path}`, { ...options, headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json" } });
 }
@@ -56,6 +59,23 @@ test("lets in who has a token, tells others why not, and forgets it in the end",
   await desk.close();
 });
 
+test("a model that is dropped with its library and picture becomes one model with that picture", async () => {
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
+  const obj = "mtllib w\u00fcrfel.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 3/3 2/2\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\nf 3/1 1/2 4/3\n";
+  await desk.dropAll([["picture.png", kPicture], ["w\u00fcrfel.obj", Buffer.from(obj)], ["w\u00fcrfel.mtl", Buffer.from("newmtl a\nmap_Kd picture.png\n")]]);
+  const card = page.locator("li.upload");
+  await card.getByRole("heading", { name: "w\u00fcrfel.tar" }).waitFor();
+  assert.equal(await card.getByLabel("Title").inputValue(), "w\u00fcrfel");
+  await desk.press("Create the model", card);
+  await card.getByText("Done").waitFor({ timeout: 60_000 });
+  const { models } = await (await asked("/models?drafts=true")).json();
+  const { texture } = await (await asked(`/models/${models[0].id}/manifest`)).json();
+  assert.deepEqual(models.map(({ title, faces }) => [title, faces]), [["w\u00fcrfel", 4]]);
+  assert.ok(texture.pictures.length > 0, "the picture is found");
+  await asked(`/models/${models[0].id}`, { method: "DELETE" });
+  await desk.close();
+});
+
 test("a file that is dropped becomes a draft, is published, edited, replaced, withdrawn and deleted", async () => {
   const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
   await desk.drop("bust.obj", await readFile(scan));
@@ -68,21 +88,29 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   assert.deepEqual(await onDisplay(), [], "a draft is nobody's business");
   await card.getByRole("link", { name: "Open the model" }).click();
   await page.getByRole("heading", { level: 1, name: "Bust of Demosthenes" }).waitFor();
-  // The viewer shows the draft, because it sends the operator's token.
+  // The draft is visible in the viewer, because the viewer sends the operator's token.
   await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor();
   await page.locator("svg.curve circle").first().waitFor();
   await desk.isFit("draft");
 
   await desk.press("Publish");
-  await page.getByRole("button", { name: "Withdraw from the gallery" }).waitFor(); // the page has been redrawn
+  // Waits for the button that appears when the page has been redrawn.
+  await page.getByRole("button", { name: "Withdraw from the gallery" }).waitFor();
   assert.deepEqual(await onDisplay(), ["Bust of Demosthenes"]);
   await page.getByLabel("Title").fill("Demosthenes");
   await page.getByLabel("Licence").fill("CC-BY-4.0");
   await page.getByLabel("Accuracy of the scan").fill("0.05");
+  await page.getByLabel("Description").fill("A copy.\n\nOf marble.");
   await desk.press("Save");
   await page.getByRole("heading", { level: 1, name: "Demosthenes", exact: true }).waitFor();
   const id = page.url().split("/").pop(), now = await (await asked(`/models/${id}`)).json();
   assert.deepEqual([now.title, now.creator, now.licence, now.unit, now.accuracy], ["Demosthenes", "Polyeuktos", "CC-BY-4.0", "mm", 0.05]);
+
+  assert.equal(now.description, "A copy.\n\nOf marble.");
+  await page.getByLabel("Subject").fill("x".repeat(5000));
+  await desk.press("Save");
+  await page.locator("[name=subject][aria-invalid]:focus ~ small", { hasText: "Expected: one line of text of at most 4096 bytes" }).waitFor();
+  await page.getByLabel("Subject").fill("");
 
   await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify({ title: "By a colleague" }) });
   await page.getByLabel("Title").fill("Too late");
@@ -124,7 +152,7 @@ test("an upload resumes where it was after the page was closed", async () => {
     if (route.request().method() !== "PATCH") return route.continue();
     const offset = Number(route.request().headers()["upload-offset"]);
     offsets.push(offset);
-    // While `hold` is true, pieces after the first are never sent.
+    // While `hold` is true, holds back all pieces except the first.
     return hold && offset > 0 ? secondIsHeld() : route.continue();
   });
   page.on("dialog", (dialog) => dialog.accept());
@@ -252,9 +280,9 @@ test("the gallery is searched, and an object's page tells what is known and give
   assert.equal(await page.getByRole("link", { name: "CC0-1.0" }).getAttribute("href"), "https://creativecommons.org/publicdomain/zero/1.0/");
   await page.getByText("± 0.05 mm").waitFor();
   const about = page.locator("#about");
-  await about.getByRole("button", { name: "Copy" }).click();
+  await about.getByRole("button", { name: "Copy" }).first().click();
   await about.getByText("Copied").waitFor();
-  assert.match(await page.evaluate(() => navigator.clipboard.readText()), new RegExp(`<progressive-mesh src="${daemon.url}/api/v1/models/${id}" alt="Hermes">`));
+  assert.match(await page.evaluate(() => navigator.clipboard.readText()), new RegExp(`<progressive-mesh src="${daemon.url}/api/v1/models/${id}" alt="Hermes" camera-controls `));
   assert.equal((await page.request.get(await about.getByRole("link", { name: "IIIF manifest" }).evaluate((link) => link.href))).status(), 200);
   await about.getByLabel("Format").selectOption("stl");
   await about.getByLabel("Level of detail").selectOption("lowest");
@@ -268,6 +296,11 @@ test("the gallery is searched, and an object's page tells what is known and give
   await context.close();
 });
 
-test("the console is framed by nobody", async () => {
-  assert.equal((await fetch(`${daemon.url}/console`)).headers.get("x-frame-options"), "DENY");
+test("no other site can frame a page of the daemon, by whatever name, but the viewer", async () => {
+  for (const path of ["/", "/index.html", "/console", "/console.html", "/docs", "/docs.html", "/scan.html"]) {
+    const { headers } = await fetch(daemon.url + path);
+    assert.equal(headers.get("x-frame-options"), "DENY", path);
+    assert.match(headers.get("content-security-policy"), /frame-ancestors 'none'/, path);
+  }
+  assert.equal((await fetch(`${daemon.url}/model.html`)).headers.get("x-frame-options"), null);
 });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the operator's console in a browser. Tests use it like an operator and check its pages.
+// Opens the operator's console in a browser, performs actions like an operator, and checks the
+// console's pages.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
@@ -12,7 +13,7 @@ const require = createRequire(new URL("../../web/package.json", import.meta.url)
 const axe = await readFile(require.resolve("axe-core/axe.min.js"), "utf8");
 const pictures = process.env.VITRINE_SCREENSHOTS;
 
-/** Creates a token with the command line, as on the daemon's own machine. */
+/** Creates a token on the command line, as an administrator does on the daemon's machine. */
 export async function tokenFor(daemon, role) {
   const words = ["token", "create", "--role", role, "--data", daemon.data, "--json"];
   return JSON.parse((await promisify(execFile)(join(daemon.bin, "vitrine"), words)).stdout).token;
@@ -31,7 +32,7 @@ export function overflow(page) {
 }
 
 export class Desk {
-  /** Opens the console. `play(context)` is called before, and may install routes that respond instead of the daemon. */
+  /** Opens the console. `play(context)` is called first. It may install routes that respond instead of the daemon. */
   static async open(browser, daemon, { token, play, ...options } = {}) {
     const context = await newContext(browser, { viewport: { width: 1280, height: 860 }, reducedMotion: "reduce", ...options });
     await play?.(context);
@@ -46,8 +47,8 @@ export class Desk {
   constructor(page, daemon) {
     Object.assign(this, { page, daemon });
     page.on("pageerror", (error) => this.complaints.push(String(error)));
-    // The browser also reports each failed response as an error. These errors are ignored, because the console handles
-    // them.
+    // The browser also reports each failed response as an error. Ignores these errors, because the
+    // console handles failed responses.
     page.on("console", (message) => message.type() === "error" && !/Failed to load resource/.test(message.text()) && this.complaints.push(message.text()));
   }
 
@@ -71,16 +72,25 @@ export class Desk {
   }
 
   /** Drags a file onto the page, as from the desktop. */
-  async drop(name, bytes) {
-    const files = await this.page.evaluateHandle(([title, text]) => {
+  drop(name, bytes) {
+    return this.dropAll([[name, bytes]]);
+  }
+
+  /** Drags several files, each given as [name, bytes], onto the page at once. */
+  async dropAll(list) {
+    const files = await this.page.evaluateHandle((encoded) => {
       const transfer = new DataTransfer();
-      transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], title, { lastModified: 1 }));
+      for (const [title, text] of encoded)
+        transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], title, { lastModified: 1 }));
       return transfer;
-    }, [name, bytes.toString("base64")]);
+    }, list.map(([name, bytes]) => [name, bytes.toString("base64")]));
     await this.page.locator(".drop").first().dispatchEvent("drop", { dataTransfer: files });
   }
 
-  /** Checks that the page fits into windows 360, 768 and 1920 pixels wide, and has no accessibility violations. Takes screenshots. */
+  /**
+   * Checks that the page fits into windows of width 360, 768 and 1920 pixels and has no
+   * accessibility violations. Takes screenshots.
+   */
   async isFit(name) {
     for (const width of [360, 768, 1920]) {
       await this.page.setViewportSize({ width, height: width === 360 ? 740 : 1080 });

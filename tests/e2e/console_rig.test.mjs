@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests all work of an operator from the calibration to the published model, entirely in the browser: calibrate, scan
-// with the simulated scanner, watch the build, publish, and see the model refined in the gallery.
-// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests an operator's whole work in the browser, from the calibration to the published model:
+// calibrate, scan with the simulated scanner, watch the build, publish, and see the model refined
+// in the gallery.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
@@ -13,13 +14,14 @@ import { DaemonAtRig } from "./rig.mjs";
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
 const kSteps = 60;
 
-let daemon, browser, desk, page;
+let daemon, browser, desk, page, token;
 
 before(async () => {
   await mkdir(pictures, { recursive: true });
   daemon = await DaemonAtRig.start(bin, ["--mesh", scan, "--height-mm", "80", "--steps", String(kSteps)]);
   browser = await launch();
-  desk = await Desk.open(browser, daemon, { token: await tokenFor(daemon, "operator") });
+  token = await tokenFor(daemon, "operator");
+  desk = await Desk.open(browser, daemon, { token });
   ({ page } = desk);
 });
 
@@ -35,7 +37,7 @@ test("shows what the camera sees, turns the table and lights the laser", async (
   await page.getByRole("link", { name: /^rig/ }).click();
   await desk.says("This scanner has no calibration yet");
   await desk.press("Laser on");
-  await desk.says("The laser is on.");
+  await desk.says("The laser is on, for one minute at most.");
   await desk.press("+90°");
   await page.getByLabel("Live preview").check();
   await page.locator(".preview img:not(.pending)").waitFor();
@@ -45,6 +47,39 @@ test("shows what the camera sees, turns the table and lights the laser", async (
   await desk.press("Laser off");
   await desk.says("The laser is off.");
 });
+
+const banner = (text) => page.locator(".stopped:not([hidden])", { hasText: text }).waitFor();
+const header = (text) => page.locator(".power li", { hasText: text }).waitFor();
+/** Text of the header while a scan measures. */
+const kMoves = /Table turns|Motor holds the table/;
+const state = async () => (await (await page.request.get(`${daemon.url}/api/v1/scanners/rig`, { headers: { Authorization: `Bearer ${token}` } })).json());
+
+test("says after a stop what laser and motor really do, and puts the laser out with its page", async () => {
+  await desk.press("Emergency stop");
+  await banner("Stopped: rig. Laser and motor are off.");
+  await header("Laser off · Motor off");
+  await desk.press("Laser on");
+  await header("Laser on since");
+  assert.equal((await state()).laser.state, "on");
+  assert.equal(await page.locator(".stopped:not([hidden])").count(), 0);
+  await shoot("lit-1280");
+  await page.setViewportSize({ width: 390, height: 844 });
+  await shoot("lit-390");
+  await page.setViewportSize({ width: 1280, height: 860 });
+  await desk.go("models", "Models");
+  await header("Laser off · Motor off");
+  assert.equal((await state()).laser.state, "off");
+  await desk.go("scanners/rig", "rig");
+  await desk.press("Laser on");
+  await header("Laser on since");
+  await page.goto(daemon.url);
+  await expectDark();
+});
+
+/** Waits until the daemon has carried out the order that the page sent when it was left. */
+async function expectDark() {
+  while ((await state()).laser.state !== "off") await page.waitForTimeout(50);
+}
 
 test("says why a scan is not begun yet", async () => {
   await desk.go("scans/new", "New scan");
@@ -74,6 +109,13 @@ test("scans, pauses, resumes, publishes, and a visitor sees it sharpen", async (
   await desk.says("Paused");
   await shoot("paused");
   await desk.press("Resume");
+  await header(kMoves);
+  await desk.press("Emergency stop");
+  await banner("Stopped: rig. Laser and motor are off.");
+  await desk.says("stopped by the operator");
+  await desk.press("Resume");
+  await header(kMoves);
+  assert.equal(await page.locator(".stopped:not([hidden])").count(), 0);
   await page.getByRole("button", { name: "Publish" }).waitFor({ timeout: 120_000 });
   await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor();
   await shoot("draft");

@@ -9,14 +9,15 @@ import { join, resolve } from "node:path";
 import { promisify } from "node:util";
 
 const run = promisify(execFile);
-// The environment without this test's VITRINE_ variables: the daemon refuses settings that it does not know.
+// The environment without the VITRINE_ variables of this test, because the daemon refuses settings
+// that it does not know.
 export const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("VITRINE_")));
 
 // Matches log lines that report a fault of the daemon or of its C++ runtime.
 const kFault = /event=(error|critical)|terminate called|Sanitizer/;
 
 export class Daemon {
-  /** Starts a daemon. `options` are appended to its command line; subclasses may use them for another program. */
+  /** Starts a daemon. `options` are appended to its command line. Subclasses may pass them to another program. */
   static async start(folderOfBinaries, options = []) {
     const bin = resolve(folderOfBinaries);
     const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
@@ -52,7 +53,7 @@ export class Daemon {
     return ended;
   }
 
-  /** Kills the daemon, as a power cut would, and restarts it at the same address. */
+  /** Kills the daemon abruptly, as a power failure would, and restarts it at the same address. */
   async killAndStartAgain() {
     await this.kill();
     await this.startAgain();
@@ -99,7 +100,7 @@ export class Daemon {
   }
 }
 
-/** Resolves to the content of `file` when the file exists. The file is written atomically. */
+/** Resolves to the content of `file` once the file exists. The file must be written atomically. */
 function watched(folder, file) {
   return new Promise((resolve) => {
     const watcher = watch(folder, async () => {

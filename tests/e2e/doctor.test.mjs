@@ -26,7 +26,7 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-/** Runs `vitrine doctor`. Returns the exit code, and the findings by the name of their check. */
+/** Runs `vitrine doctor`. Returns the exit code, and the findings by the names of the checks. */
 function doctor(...words) {
   return new Promise((resolve) => {
     execFile(join(bin, "vitrine"), ["doctor", "--json", ...words], (fault, stdout, stderr) => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests drawing. Base, middle and full resolution must match stored pictures. No state of a watertight model may have a
-// crack. Several models must share one worker and one budget.
+// Tests drawing. Base mesh, middle level and full resolution must match stored pictures. No state
+// of a watertight model may have a crack. Several models must share one worker and one budget.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
@@ -9,14 +9,14 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
 import { launch } from "./browser.mjs";
-import { writeBlob } from "./models.mjs";
+import { writeBlob, writeStripedBall } from "./models.mjs";
 import { openScene } from "./scene.mjs";
 import { StaticHost } from "./static_host.mjs";
 
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
 const stored = new URL("pictures/", import.meta.url);
 
-let folder, browser, host, blob, bust;
+let folder, browser, host, blob, bust, ball;
 
 before(async () => {
   folder = await mkdtemp(join(tmpdir(), "vitrine-"));
@@ -27,6 +27,9 @@ before(async () => {
   await writeBlob(mesh, 120);
   blob = await serve(mesh, "blob");
   bust = await serve(scan, "bust");
+  const striped = join(folder, "ball.glb");
+  await writeStripedBall(striped, { stripes: 48 });
+  ball = await serve(striped, "ball");
 });
 after(async () => {
   await browser?.close();
@@ -73,7 +76,7 @@ for (const reducedMotion of ["reduce", "no-preference"]) {
     await page.evaluate(`window.holes = ${holes}`);
     const seen = await page.evaluate(async (url) => {
       const mesh = await scene.load(url), { THREE } = scene;
-      mesh.material.side = THREE.FrontSide; // otherwise the back of the far wall would be visible through a crack
+      mesh.material.side = THREE.FrontSide; // otherwise a crack would show the back of the far wall
       const states = [];
       const look = async () => {
         for (const distance of [3.2, 1.6]) {
@@ -122,7 +125,10 @@ test("a region shown at a level that its neighbours forbid lets the background t
       }
       return new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(corners), new THREE.MeshBasicMaterial());
     };
-    /** Shows the patch that faces the camera at `level`, and the rest at full resolution. Returns the result of holes(). */
+    /**
+     * Shows the patch that faces the camera at `level`, and all other parts at full resolution.
+     * Returns the result of holes().
+     */
     const patched = async (level) => {
       const inside = ({ z }) => z > 0.4 * radius;
       const parts = [await part(level, inside), await part(top, (middle) => !inside(middle))];
@@ -159,8 +165,8 @@ test("base, middle and full are drawn as in the stored pictures", async () => {
 });
 
 /**
- * Compares two pictures. Returns `mean`, the mean difference of all channel values (0 to 255), and `far`, the share of
- * pixels of which a channel differs by more than 32.
+ * Compares two pictures. Returns `mean`, the mean difference of all channel values (0 to 255), and
+ * `far`, the share of pixels in which any channel differs by more than 32.
  */
 function difference(page, ...pngs) {
   return page.evaluate(async (both) => {
@@ -218,6 +224,63 @@ test("a ray meets the surface where it is", async () => {
   assert.ok(Math.abs(hit - radius) < 6, `at ${hit}`);
   await page.context().close();
 });
+
+/** Runs in the page: exports the mesh as OBJ and GLB, and returns the sizes of what the loaders read from them. */
+async function exported(mesh) {
+  const { GLTFExporter, GLTFLoader, OBJExporter, OBJLoader } = window.scene;
+  const glb = await new GLTFExporter().parseAsync(mesh, { binary: true });
+  const [fromGlb] = (await new GLTFLoader().parseAsync(glb, "")).scene.children;
+  const [fromObj] = new OBJLoader().parse(new OBJExporter().parse(mesh)).children;
+  const normal = fromGlb.geometry.getAttribute("normal");
+  return {
+    glb: fromGlb.geometry.index.count / 3, obj: fromObj.geometry.getAttribute("position").count / 3,
+    side: fromGlb.material.map?.image.width ?? 0, normals: [normal.itemSize, normal.array.constructor.name],
+  };
+}
+
+for (const name of ["bust", "ball"]) {
+  test(`three.js bounds, clones and exports a mesh as any other: ${name}`, async () => {
+    const page = await openScene(browser, host, { reducedMotion: "no-preference" });
+    const seen = await page.evaluate(async ([url, run]) => {
+      const exported = eval(`(${run})`), mesh = await scene.load(url), { THREE } = scene;
+      scene.look(mesh, 0.3, 2);
+      scene.draw();
+      await mesh.refine({ level: 3 });
+      scene.draw();
+      const attributes = Object.keys(mesh.geometry.attributes), moving = await exported(mesh);
+      while (mesh.morphing) await scene.frame();
+      const textured = () => scene.draw() ?? mesh.material.map !== null;
+      if (mesh.info.texture) while (!textured()) await scene.frame();
+      const sphere = mesh.geometry.boundingSphere.clone();
+      mesh.geometry.computeBoundingSphere();
+      mesh.geometry.computeBoundingBox();
+      const still = new THREE.Mesh(mesh.geometry.clone(), mesh.material);
+      const before = scene.pixels().data, copy = mesh.clone();
+      scene.scene.remove(mesh);
+      scene.scene.add(copy);
+      const after = scene.pixels().data;
+      scene.scene.remove(copy);
+      scene.scene.add(still);
+      const frozen = scene.pixels().data;
+      const differ = (a, b) => a.filter((value, i) => Math.abs(value - b[i]) > 8).length / a.length;
+      return {
+        attributes, moving, mesh: await exported(mesh), still: await exported(still), triangles: mesh.geometry.index.count / 3,
+        radii: [sphere.radius, mesh.geometry.boundingSphere.radius], box: mesh.geometry.boundingBox.isEmpty(),
+        copy: [copy.isMesh, copy.geometry === mesh.geometry, copy instanceof scene.vitrine.ProgressiveMesh], changed: [differ(before, after), differ(before, frozen)],
+      };
+    }, [name === "bust" ? bust : ball, String(exported)]);
+    assert.ok(seen.attributes.includes("fromPosition"), "the first export is made during a morph");
+    for (const made of [seen.moving, seen.mesh, seen.still])
+      assert.deepEqual([made.glb, made.obj], [seen.triangles, seen.triangles]);
+    assert.equal(seen.mesh.side > 0, name === "ball");
+    assert.deepEqual(seen.still.normals, [3, "Float32Array"]);
+    assert.ok(Math.abs(seen.radii[1] / seen.radii[0] - 1) < 0.1, String(seen.radii));
+    assert.equal(seen.box, false);
+    assert.deepEqual(seen.copy, [true, true, false]);
+    assert.ok(seen.changed[0] === 0 && seen.changed[1] < 0.01, `pixels differ: ${seen.changed}`);
+    await page.context().close();
+  });
+}
 
 for (const [reducedMotion, moves] of [["no-preference", true], ["reduce", false]]) {
   test(`new vertices ${moves ? "move to their places, and stand still then" : "stand still at once for those who want no motion"}`, async () => {

@@ -9,10 +9,11 @@ import { ViewerPage, launch } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
 import { Memory, countWebGl } from "./memory.mjs";
 
-// The mean of the second half of the kSamples samples may be kMost times the mean of the first half, plus kNoise MB.
+// Limit for the mean of the second half of the kSamples samples: kMost times the mean of the first
+// half, plus kNoise MB.
 const kSamples = 10, kMost = 1.1, kNoise = 1;
 const kOrbits = ["30deg 75deg 60%", "120deg 60deg 30%", "210deg 90deg 150%", "300deg 75deg 40%"];
-const kStay = 5000; // ms at each orbit
+const kStay = 5000; // ms that the camera stays at each orbit
 
 const [bin, scan, switches = 100, minutes = 20] = process.argv.slice(2).map((word, i) => (i < 2 ? word : Number(word)));
 if (!scan || !(switches >= kSamples) || !(minutes >= 0)) {
@@ -44,7 +45,10 @@ try {
   await daemon.stop();
 }
 
-/** Adds a second viewer that shows only its base mesh, so that the worker is not stopped when the first viewer changes its model. */
+/**
+ * Adds a second viewer that shows only its base mesh. Otherwise the worker would stop when the
+ * first viewer changes its model.
+ */
 async function companion({ page }, src) {
   await page.evaluate((url) => new Promise((resolve) => {
     const second = document.createElement("progressive-mesh");
@@ -56,12 +60,15 @@ async function companion({ page }, src) {
   }), src);
 }
 
-/** Runs `work` kSamples times and measures the memory after each run. Fails if the second half of the samples exceeds the first. */
+/**
+ * Runs `work` kSamples times and measures the memory after each run. Fails if the second half of
+ * the samples needs more memory than the first.
+ */
 async function endure(what, memory, work) {
   const samples = [];
   for (let tenth = 0; tenth < kSamples; ++tenth) {
     await work(tenth);
-    // Deletes the test's own list of events, which would otherwise count as a leak.
+    // Empties the test's own list of events, whose growth would otherwise count as a leak.
     await memory.page.evaluate(() => (window.seen.length = 0));
     const held = { ...(await memory.measure()), daemon: await residentMegabytes() };
     samples.push(held);
@@ -76,7 +83,8 @@ async function endure(what, memory, work) {
 }
 
 async function switchModels(viewer, sources, tenth) {
-  // Even numbers, so that each tenth ends with the first model.
+  // Uses even numbers of model changes, so that each of the kSamples runs ends with the first
+  // model.
   const [from, to] = [tenth, tenth + 1].map((n) => 2 * Math.round(n * switches / kSamples / 2));
   for (let i = from; i < to; ++i) {
     await viewer.settled(() => viewer.page.locator("progressive-mesh").first().evaluate((element, src) => (element.src = src), sources[(i + 1) % 2]));
@@ -90,7 +98,7 @@ function turn({ page }) {
   });
 }
 
-/** Moves the camera along all orbits repeatedly, for `milliseconds` or at least once. */
+/** Moves the camera along all orbits, repeatedly for `milliseconds`, but at least once. */
 async function lookAround(viewer, milliseconds) {
   const end = performance.now() + milliseconds;
   do {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulates the API of one scan in the browser's network layer. The test sets the scan's progress.
+// Simulates the API of one scan by intercepting the browser's requests. The test sets the scan's
+// progress.
 export const kScan = "01hf0000000000000000000000";
 
 export class FakeScan {
@@ -8,11 +9,11 @@ export class FakeScan {
     id: kScan, job: kScan, scanner: "rig", state: "waiting", step: 0, steps: 720, progress: 0, eta: null, error: null, note: null,
     calibration: 1, points: 0, model: null, title: "Demosthenes", created: 0,
   };
-  fault = null; // "network" for a lost connection, or the HTTP status to respond with
+  fault = null; // the fault to simulate: "network" for a lost connection, or an HTTP status
   #asked = 0;
   #waiting = [];
 
-  /** Intercepts the requests. Call before the page is opened. */
+  /** Intercepts the browser's requests. Must be called before the page is opened. */
   async play(context) {
     await context.route("**/api/v1/scans/**", (route) => this.#answer(route));
   }
@@ -25,7 +26,7 @@ export class FakeScan {
     this.record.points = points.length / 3;
   }
 
-  /** Resolves when the page has polled the scan `times` more times. */
+  /** Resolves when the page has polled the scan another `times` times. */
   asked(times = 1) {
     return new Promise((resolve) => this.#waiting.push({ at: this.#asked + times, resolve }));
   }
@@ -50,8 +51,9 @@ export class FakeScan {
 }
 
 /**
- * Returns `count` points of a mesh as a scanner measures them: ordered by their angle around the turntable's axis,
- * scaled to a height of 80 mm, and with z upwards. In the mesh, y is upwards.
+ * Returns `count` points of a mesh in the order in which a scanner measures them, by angle around
+ * the turntable's axis. The points are scaled to a height of 80 mm, with z upwards. In the mesh, y
+ * is upwards.
  */
 export function measured({ vertices, faces }, count) {
   const range = (axis) => vertices.reduce(([low, high], v) => [Math.min(low, v[axis]), Math.max(high, v[axis])], [Infinity, -Infinity]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulates the API of a scanner during a calibration, in the browser's network layer. Each "resume" counts as a placed
-// target.
+// Simulates the API of a scanner during a calibration, by intercepting the browser's requests. Each
+// request "resume" means that the operator has placed the target.
 const kCalibrate = "01hf0000000000000000000001";
 
 export class FakeScanner {
@@ -31,9 +31,9 @@ export class FakeScanner {
   }
 
   #scanner(route) {
-    const { pathname } = new URL(route.request().url()), record = {
+    const { pathname } = new URL(route.request().url()), power = { state: this.stopStatus === 200 ? "off" : "unknown", since: "2026-01-01T00:00:00Z" }, record = {
       id: "rig", name: "rig", state: "idle", camera: { vendor: "Aravis", model: "Fake", serial: "GV01" }, board: { dialect: "horus", firmware: "Horus 1" },
-      calibration: this.state === "done" ? 1 : null, scan: null, problem: null,
+      calibration: this.state === "done" ? 1 : null, scan: null, problem: null, laser: power, motor: power,
     };
     if (pathname.endsWith("/stop")) {
       ++this.stops;

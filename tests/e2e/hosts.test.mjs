@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the element with every kind of host that the product supports. Nothing may be loaded from other servers.
+// Tests the element on every kind of web host that the product supports. The element must load
+// nothing from other servers.
 import assert from "node:assert/strict";
 import { execFile, spawn } from "node:child_process";
 import { once } from "node:events";
@@ -41,8 +42,9 @@ after(async () => {
 });
 
 /**
- * The kinds of hosts. Each function returns the viewer's attributes and `chunks`, which is true if the viewer must
- * request the daemon's chunk URLs. `page` is the host of the page if it is not `hosts.page`.
+ * The kinds of hosts. Each function returns the viewer's attributes, and `chunks`, which is true if
+ * the viewer must request the daemon's chunk URLs. `page` is the host of the page; without it, the
+ * host is `hosts.page`.
  */
 const kHosts = {
   "the daemon by WebSocket": () => ({ src: api, transport: "ws", chunks: false }),
@@ -77,7 +79,10 @@ test("a host with Range is asked for parts, one without for the whole once", asy
   assert.equal(models(hosts.whole).length, 1);
 });
 
-/** An nginx in front of a daemon. As in many museums, it limits the size of uploads and forwards WebSocket upgrades. */
+/**
+ * An nginx in front of a daemon, configured like those of many museums: it limits the size of
+ * uploads and forwards WebSocket upgrades.
+ */
 class Nginx {
   static async start({ folder, port: upstream }) {
     const port = await freePort();

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the memory of a page with viewers: JavaScript heaps and arrays of page and worker, WebAssembly memory, the
-// number of WebGL objects, and the bytes of WebGL buffers.
+// number of WebGL objects, and the bytes of WebGL buffers and pictures.
 import { once } from "node:events";
 
-/** Runs in the page before the page's own scripts. Counts the WebGL objects of each context that is not lost. */
+/**
+ * Runs in the page before the page's own scripts. Counts the WebGL objects of each context until
+ * the context is lost.
+ */
 export function countWebGl() {
   const contexts = new Map(), kinds = ["Buffer", "Texture", "Program", "Shader", "VertexArray", "Framebuffer", "Renderbuffer"];
   const prototype = WebGL2RenderingContext.prototype;
@@ -16,18 +19,27 @@ export function countWebGl() {
     };
   };
   const objects = (gl) => contexts.get(gl) ?? (contexts.set(gl, new Map()), contexts.get(gl));
-  const bound = new WeakMap(); // maps each context to the buffers that are bound to its targets
+  const bound = new WeakMap(); // maps each context to the buffers and textures that are bound to its targets
   for (const kind of kinds) {
     wrap(`create${kind}`, (gl, _, made) => objects(gl).set(made, 0));
     wrap(`delete${kind}`, (gl, [gone]) => objects(gl).delete(gone));
   }
   wrap("bindBuffer", (gl, [target, buffer]) => bound.set(gl, { ...bound.get(gl), [target]: buffer }));
   wrap("bufferData", (gl, [target, data]) => objects(gl).set(bound.get(gl)[target], data?.byteLength ?? data));
+  wrap("bindTexture", (gl, [target, texture]) => bound.set(gl, { ...bound.get(gl), [target]: texture }));
+  wrap("texStorage2D", (gl, [target, levels, format, width, height]) => {
+    if (![gl.RGBA8, gl.SRGB8_ALPHA8].includes(format)) return;
+    const texels = Array.from({ length: levels }, (_, i) => Math.max(1, width >> i) * Math.max(1, height >> i));
+    objects(gl).set(bound.get(gl)[target], 4 * texels.reduce((sum, some) => sum + some));
+  });
   wrap("getExtension", (gl, [name], extension) => {
     if (name !== "WEBGL_lose_context" || !extension) return;
     const lose = extension.loseContext;
     extension.loseContext = () => (contexts.delete(gl), lose.call(extension));
   });
+  /** Bytes of the pictures of models: of textures with one byte per channel. */
+  window.pictureBytes = () => [...contexts.values()].flatMap((held) => [...held])
+    .reduce((sum, [object, bytes]) => sum + (object instanceof WebGLTexture ? bytes : 0), 0);
   window.webGl = () => {
     const all = [...contexts.values()].flatMap((held) => [...held.values()]);
     return { contexts: contexts.size, objects: all.length, bytes: all.reduce((sum, bytes) => sum + bytes, 0) };
@@ -35,8 +47,8 @@ export function countWebGl() {
 }
 
 /**
- * Runs in the worker. Counts the memory of each WebAssembly instance that is created later, until it is
- * garbage-collected.
+ * Runs in the worker. Counts the memory of each WebAssembly instance that is created later. An
+ * instance no longer counts when it is garbage-collected.
  */
 function countWebAssembly() {
   const memories = [], { instantiate } = WebAssembly;
@@ -49,7 +61,10 @@ function countWebAssembly() {
 }
 
 export class Memory {
-  /** Prepares to measure a page whose worker is running. WebAssembly instances that already exist are not counted. */
+  /**
+   * Prepares the measurement of a page whose worker is running. WebAssembly instances that already
+   * exist are not counted.
+   */
   static async of(page) {
     const devtools = await page.context().newCDPSession(page);
     const attached = once(devtools, "Target.attachedToTarget");
@@ -80,7 +95,7 @@ export class Memory {
     };
   }
 
-  /** Sends a command to the worker's inspector and returns the reply. */
+  /** Sends a command to the worker's debugger interface and returns the reply. */
   async #ask(method, params) {
     const id = ++this.#last;
     const answer = new Promise((resolve) => {

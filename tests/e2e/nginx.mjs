@@ -13,15 +13,18 @@ const kShipped = new URL("../../deploy/nginx/vitrine.conf", import.meta.url);
 
 export class Nginx {
   /**
-   * Starts nginx in front of the daemons at `origins`, each given as "127.0.0.1:PORT". The last one has the scanner.
-   * `changes` are pairs [old, new] of texts to replace in the configuration.
+   * Starts nginx in front of the daemons at `origins`, each given as "127.0.0.1:PORT". The last
+   * daemon has the scanner. `changes` are pairs [old, new] of texts to replace in the
+   * configuration.
    */
   static async start(origins, changes = []) {
     const nginx = new Nginx();
     nginx.folder = await mkdtemp(join(tmpdir(), "vitrine-nginx-"));
-    await chmod(nginx.folder, 0o755);  // so that the worker processes, which run as another user, can read it
+    // Lets nginx's worker processes read the folder. They run as another user.
+    await chmod(nginx.folder, 0o755);
     nginx.port = await freePort();
-    nginx.url = `https://127.0.0.1:${nginx.port}`;
+    nginx.plainPort = await freePort();
+    nginx.url = `https://localhost:${nginx.port}`;
     await nginx.#configure(origins, changes);
     await promisify(execFile)(kProgram, [...nginx.#words(), "-t"]);
     await nginx.#begin();
@@ -42,20 +45,26 @@ export class Nginx {
     const path = (name) => join(this.folder, name);
     this.certificate = path("cert.pem");
     this.cache = path("cache");
-    execFileSync("openssl", ["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "90", "-subj", "/CN=127.0.0.1", "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", path("key.pem"), "-out", this.certificate], { stdio: "ignore" });
+    const purge = await freePort();
+    this.purgeUrl = `http://127.0.0.1:${purge}`;
+    execFileSync("openssl", ["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "90", "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost", "-keyout", path("key.pem"), "-out", this.certificate], { stdio: "ignore" });
     await writeFile(path("nginx.conf"), `daemon off; worker_processes 1; pid nginx.pid; events { worker_connections 1024; }
 http { access_log off; client_body_temp_path body; proxy_temp_path proxy; fastcgi_temp_path fastcgi; uwsgi_temp_path uwsgi; scgi_temp_path scgi;
 include site.conf; }\n`);
-    await writeFile(path("site.conf"), replaced(await readFile(kShipped, "utf8"), [
+    await writeFile(path("site.conf"), replaced((await readFile(kShipped, "utf8")).replaceAll("museum.example;", "localhost;"), [
       ["server 127.0.0.1:8080;  # one line per replica", `${origins.map((origin) => `server ${origin};`).join(" ")}  #`],
       ["server 127.0.0.1:8080;  # the replica with the scanner", `server ${origins.at(-1)};`],
       ["/var/cache/nginx/vitrine", this.cache],
       ["/etc/ssl/certs/museum.example.pem", this.certificate],
       ["/etc/ssl/private/museum.example.key", path("key.pem")],
-      ["listen 80;", `listen 127.0.0.1:${await freePort()};`],
-      ["listen [::]:80;", ""],
-      ["listen 443 ssl http2;", `listen 127.0.0.1:${this.port} ssl http2;`],
-      ["listen [::]:443 ssl http2;", ""],
+      ["listen 127.0.0.1:8081;", `listen 127.0.0.1:${purge};`],
+      ["proxy_pass http://127.0.0.1:8081;", `proxy_pass http://127.0.0.1:${purge};`],
+      ...["", " default_server"].flatMap((which) => [
+        [`listen 80${which};`, `listen 127.0.0.1:${this.plainPort}${which};`],
+        [`listen [::]:80${which};`, ""],
+        [`listen 443 ssl http2${which};`, `listen 127.0.0.1:${this.port} ssl http2${which};`],
+        [`listen [::]:443 ssl http2${which};`, ""],
+      ]),
       ...changes,
     ]));
   }
@@ -88,7 +97,7 @@ include site.conf; }\n`);
   }
 }
 
-/** Replaces texts of the shipped configuration. Throws unless each occurs exactly once. */
+/** Replaces texts of the shipped configuration. Throws unless each text occurs exactly once. */
 function replaced(text, changes) {
   for (const [from, to] of changes) {
     if (text.split(from).length !== 2) throw new Error(`'${from}' is not once in ${kShipped.pathname}`);
@@ -107,7 +116,7 @@ export async function freePort() {
   return port;
 }
 
-/** Resolves when a server listens at `port`; retries after each refused connection. */
+/** Resolves when a server listens at `port`. Tries again after each refused connection. */
 async function listens(port) {
   for (;;) {
     const socket = createConnection(port, "127.0.0.1");

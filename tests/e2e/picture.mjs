@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the picture for the README from the real page: the base mesh, the model with the slider in the middle, and the
-// whole model, side by side.
+// Takes the picture for the README from the real page. The picture shows side by side: the base
+// mesh, the model with the slider in the middle, and the whole model.
 // node tests/e2e/picture.mjs build/release/bin tests/models/demosthenes.obj picture.png
 import { ViewerPage, launch } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";

@@ -6,10 +6,12 @@ import { execFile } from "node:child_process";
 import { createHash } from "node:crypto";
 import { once } from "node:events";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
+import http, { createServer } from "node:http";
 import https from "node:https";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { connect } from "node:tls";
 import { promisify } from "node:util";
 import { gunzipSync } from "node:zlib";
 import { Daemon } from "./daemon.mjs";
@@ -36,8 +38,12 @@ after(async () => {
 });
 
 /** Sends a request to nginx and returns the whole response. */
-async function ask(path, headers = {}, method = "GET") {
-  const request = https.request(nginx.url + path, { headers, method, ca, agent: false });
+function ask(path, headers = {}, method = "GET") {
+  return get(nginx.url + path, { headers, method, ca, agent: false });
+}
+
+async function get(url, options) {
+  const request = https.request(url, options);
   request.on("error", () => undefined);  // an error after the response would otherwise end the test
   request.end();
   const [response] = await once(request, "response");
@@ -45,11 +51,50 @@ async function ask(path, headers = {}, method = "GET") {
   return { status: response.statusCode, headers: response.headers, body: Buffer.concat(parts) };
 }
 
+/**
+ * An origin that forwards requests to the daemon. It sets the times that Cache-Control gives to
+ * shared caches to `seconds`, so that a test decides whether they expire.
+ */
+class OtherOrigin {
+  bytes = 0; // total size of the bodies with status 200
+  confirmed = 0; // number of responses with status 304
+
+  static async start(to, seconds) {
+    const origin = new OtherOrigin();
+    origin.server = createServer((request, response) => origin.#forward(to, seconds, request, response)).listen(0, "127.0.0.1");
+    await once(origin.server, "listening");
+    origin.port = origin.server.address().port;
+    return origin;
+  }
+
+  async #forward(to, seconds, { url, method, headers }, response) {
+    const request = http.request({ host: "127.0.0.1", port: to, path: url, method, headers, agent: false }).end();
+    const [answer] = await once(request, "response");
+    const body = Buffer.concat(await answer.toArray());
+    if (answer.statusCode === 200) this.bytes += body.length;
+    if (answer.statusCode === 304) this.confirmed += 1;
+    const caching = answer.headers["cache-control"].replace(/(s-maxage|stale-while-revalidate)=[0-9]+/g, `$1=${seconds}`);
+    response.writeHead(answer.statusCode, { ...answer.headers, "cache-control": caching }).end(body);
+  }
+
+  async stop() {
+    this.server.close();
+    this.server.closeAllConnections();
+    await once(this.server, "close");
+  }
+}
+
 /** Runs the `vitrine` command, which trusts nginx's certificate. */
 async function vitrine(...words) {
   const env = { PATH: process.env.PATH, SSL_CERT_FILE: nginx.certificate };
   const { stdout } = await run(join(bin, "vitrine"), [...words, "--json"], { env }).catch((failed) => failed);
   return JSON.parse(stdout);
+}
+
+/** Publishes or unpublishes the model. Sends the request directly to the daemon, not to nginx. */
+async function change(verb) {
+  const { token } = await vitrine("token", "create", "--role", "operator", "--data", daemon.data);
+  return fetch(`${daemon.url}/api/v1/models/${id}/${verb}`, { method: "POST", headers: { Authorization: `Bearer ${token}` } });
 }
 
 /** Waits until the daemon has counted `count` requests for chunks. The daemon counts a request after sending its last byte. */
@@ -82,12 +127,12 @@ test("five first visitors at once cost the origin one request a chunk, the next 
   for (const [i, { status, headers, body }] of (await visit()).entries()) {
     assert.equal(status, 200);
     assert.equal(headers["x-cache"], "HIT");
-    assert.equal(headers["cache-control"], "public, max-age=31536000, immutable");
+    assert.match(headers["cache-control"], /^public, max-age=31536000, immutable, s-maxage=120, stale-while-revalidate=60$/);
     assert.equal(createHash("sha256").update(body).digest("hex"), chunks[i]);
     assert.deepEqual(body, first[i].body);
   }
-  // This request goes directly to the daemon. It must be the only one that the daemon has counted
-  // since `once`.
+  // Sends one request directly to the daemon. This request must be the only one that the daemon
+  // counts after `once`.
   await fetch(`${daemon.url}/api/v1/chunks/${chunks[0]}`);
   assert.equal(await counted(once + 1), once + 1);
 });
@@ -134,11 +179,89 @@ test("the addresses that the daemon tells are nginx's", async () => {
   assert.equal(JSON.parse(body).id, `${nginx.url}/api/v1/iiif/${id}/manifest.json`);
 });
 
+test("nginx speaks TLS 1.2 and 1.3 only, and resumes sessions", async () => {
+  const greet = async (options) => {
+    const socket = connect({ port: nginx.port, host: "127.0.0.1", servername: "localhost", ca, ...options });
+    try {
+      await once(socket, "secureConnect");
+      return { protocol: socket.getProtocol(), session: socket.getSession(), resumed: socket.isSessionReused() };
+    } finally {
+      socket.destroy();
+    }
+  };
+  const both = { minVersion: "TLSv1", ciphers: "DEFAULT@SECLEVEL=0" };
+  assert.equal((await greet(both)).protocol, "TLSv1.3");
+  const { protocol, session } = await greet({ ...both, maxVersion: "TLSv1.2" });
+  assert.equal(protocol, "TLSv1.2");
+  assert.ok((await greet({ maxVersion: "TLSv1.2", session })).resumed);
+  await assert.rejects(greet({ ...both, maxVersion: "TLSv1.1" }));
+});
+
+test("browsers keep to HTTPS, and other host names get no answer", async () => {
+  for (const path of ["/", `/models/${id}`, `/api/v1/chunks/${chunks[0]}`, "/nothing"])
+    assert.equal((await ask(path)).headers["strict-transport-security"], "max-age=31536000", path);
+  const from = (get, url, more) => once(get(url, { ca, agent: false, ...more }), "response");
+  const headers = { Host: "attacker.example" };
+  await assert.rejects(from(https.get, nginx.url, { headers, servername: "attacker.example" }), { code: "EPROTO" });
+  await assert.rejects(from(https.get, nginx.url, { headers, servername: "localhost" }), { code: "ECONNRESET" });
+  const plain = `http://localhost:${nginx.plainPort}/`;
+  assert.equal((await from(http.get, plain))[0].statusCode, 308);
+  await assert.rejects(from(http.get, plain, { headers }), { code: "ECONNRESET" });
+});
+
 test("a stream passes through, down to the last triangle", async () => {
   const [through, past] = ["through.ply", "past.ply"].map((name) => join(folder, name));
-  await vitrine("fetch", `${nginx.url}/models/${id}`, "-o", through);
-  await vitrine("fetch", `${daemon.url}/models/${id}`, "-o", past);
+  await vitrine("fetch", `${nginx.url}/models/${id}`, "--force", "-o", through);
+  await vitrine("fetch", `${daemon.url}/models/${id}`, "--force", "-o", past);
   assert.deepEqual(await readFile(through), await readFile(past));
+});
+
+test("a purged chunk is gone, though its time is not over, and comes back once it is public again", async () => {
+  const slow = await OtherOrigin.start(daemon.port, 86400);
+  const front = await Nginx.start([`127.0.0.1:${slow.port}`]);
+  try {
+    const path = `/api/v1/chunks/${chunks.at(-1)}`;
+    const options = { ca: await readFile(front.certificate), agent: false };
+    const ask = () => get(front.url + path, options);
+    const first = await ask();
+    assert.equal((await change("unpublish")).status, 200);
+    assert.deepEqual((await ask()).body, first.body, "nginx does not ask the origin");
+    const purged = await fetch(front.purgeUrl + path, { method: "PURGE" });
+    assert.equal(purged.status, 404);
+    assert.equal((await ask()).status, 404);
+    assert.equal((await change("publish")).status, 200);
+    let now;
+    do now = await ask();
+    while (now.status === 404);
+    assert.deepEqual(now.body, first.body);
+  } finally {
+    await front.stop();
+    await slow.stop();
+  }
+});
+
+test("a copy is confirmed without content once its time is over, and gone after the model is withdrawn", async () => {
+  const hasty = await OtherOrigin.start(daemon.port, 1);
+  const front = await Nginx.start([`127.0.0.1:${hasty.port}`]);
+  try {
+    const url = `${front.url}/api/v1/chunks/${chunks.at(-1)}`;
+    const options = { ca: await readFile(front.certificate), agent: false };
+    const first = await get(url, options);
+    assert.equal(first.status, 200);
+    while (hasty.confirmed < 2) assert.deepEqual((await get(url, options)).body, first.body);
+    assert.equal(hasty.bytes, first.body.length, "the origin has sent the chunk once");
+
+    assert.equal((await change("unpublish")).status, 200);
+    let status;
+    do ({ status } = await get(url, options));
+    while (status === 200);
+    assert.equal(status, 404);
+    assert.equal((await change("publish")).status, 200);
+    assert.deepEqual((await get(url, options)).body, first.body);
+  } finally {
+    await front.stop();
+    await hasty.stop();
+  }
 });
 
 test("a scan is published through it, and a body above 100 MB refused before it is sent", async () => {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the daemon with the simulated scanner in a private network namespace, because the camera's port is fixed and
-// tests run in parallel. The daemon listens on a Unix socket, to which a TCP port forwards the browser's connections.
+// Runs the daemon with the simulated scanner in a private network namespace. The camera's port is
+// fixed, so tests that run in parallel need separate namespaces. The daemon listens on a Unix
+// socket, to which a TCP port forwards the browser's connections.
 import { once } from "node:events";
 import { connect, createServer } from "node:net";
 import { join } from "node:path";
@@ -8,7 +9,7 @@ import { pipeline } from "node:stream";
 import { Daemon } from "./daemon.mjs";
 
 export class DaemonAtRig extends Daemon {
-  /** Starts the daemon. `options` are options of vitrine-rig, such as --mesh FILE. */
+  /** Starts the daemon. `options` are command-line options of vitrine-rig, such as --mesh FILE. */
   static async start(folderOfBinaries, options) {
     const daemon = await super.start(folderOfBinaries, options);
     daemon.door = createServer((visitor) => pipeline(visitor, connect(daemon.socket), visitor, () => undefined)).listen(0, "127.0.0.1");

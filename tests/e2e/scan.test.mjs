@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests how a visitor watches a scan, in a real browser. The scan is simulated; the page and the model come from a real
-// daemon.
-// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests what a visitor sees of a running scan, in a real browser. The scan is simulated; the page
+// and the model come from a real daemon.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
@@ -93,7 +93,7 @@ for (const [name, options] of Object.entries({
     fake.tell(midway(0.5), part(0.5));
     const visitor = await watched(fake, { ...options, reducedMotion: "reduce" });
     await visitor.says(grown(0.5));
-    // Nothing can be scrolled: the document is as large as the viewport.
+    // The document must be as large as the viewport, so that nothing can be scrolled.
     const { width, height } = options.viewport;
     assert.deepEqual(await visitor.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.scrollHeight]), [width, height]);
     await frames(visitor.page);
@@ -109,7 +109,7 @@ test("turns by itself, but not for who asks for less motion", async () => {
   for (const reducedMotion of ["reduce", "no-preference"]) {
     const visitor = await watched(fake, { reducedMotion, viewport: { width: 360, height: 480 } });
     await visitor.says(grown(1));
-    await fake.asked(2); // after two polls, all points are shown and the camera has reached its place
+    await fake.asked(2); // after two polls, all points are shown and the camera has stopped moving
     const before = await view(visitor.page);
     const turned = () => view(visitor.page).then((after) => !after.equals(before));
     if (reducedMotion === "reduce") assert.ok(!(await turned()));
@@ -182,7 +182,10 @@ test("a scan that is not for everybody is not on display", async () => {
   await visitor.close();
 });
 
-/** Resolves to the visibility of the scan's progress bar and status text at the moment when the model appears. */
+/**
+ * Waits until the model appears. Resolves to the visibility of the scan's progress bar and status
+ * text at that moment.
+ */
 function wordsWhenModelled(page) {
   return page.evaluate(() => new Promise((done) => {
     const main = document.querySelector("main");
@@ -191,7 +194,7 @@ function wordsWhenModelled(page) {
   }));
 }
 
-/** Waits for two frames, so that everything requested before has been drawn. */
+/** Waits for two animation frames. By then, everything requested before has been drawn. */
 function frames(page) {
   return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }

@@ -10,6 +10,10 @@ const { build } = createRequire(new URL("package.json", web))("esbuild");
 /** Runs in the page: draws models in front of a magenta background, which shows through cracks. */
 const kScene = `
 import * as THREE from "three";
+import { GLTFExporter } from "three/examples/jsm/exporters/GLTFExporter.js";
+import { OBJExporter } from "three/examples/jsm/exporters/OBJExporter.js";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import * as vitrine from "./dist/progressive-mesh-loader.js";
 const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
 renderer.setSize(innerWidth, innerHeight);
@@ -20,7 +24,7 @@ const sun = new THREE.DirectionalLight(0xffffff, 3);
 sun.position.set(-1, 1, 1);
 scene.add(sun, new THREE.AmbientLight(0xffffff, 0.5));
 const camera = new THREE.PerspectiveCamera(35, innerWidth / innerHeight, 0.001, 100);
-window.scene = { THREE, vitrine, renderer, scene, camera, meshes: [],
+window.scene = { THREE, GLTFExporter, GLTFLoader, OBJExporter, OBJLoader, vitrine, renderer, scene, camera, meshes: [],
   draw: () => renderer.render(scene, camera),
   frame: () => new Promise(requestAnimationFrame),
   async load(url) {

@@ -23,7 +23,7 @@ export class StaticHost {
   }
 
   files = new Map();
-  asked = []; // all requests so far, such as "GET /model.pmesh bytes=0-32767"
+  asked = []; // all requests so far, as texts such as "GET /model.pmesh bytes=0-32767"
   sent = []; // all responses so far, as { path, bytes, at }; `at` is the time of the request in ms since 1970
 
   constructor(options) {
@@ -31,7 +31,7 @@ export class StaticHost {
     this.server = createServer((request, response) => this.#answer(request, response).catch(() => response.writeHead(404).end()));
   }
 
-  /** Adds a page with one viewer that has these attributes, and returns the page's URL. */
+  /** Adds a page with one viewer that has the given attributes. Returns the page's URL. */
   page(attributes) {
     const words = Object.entries(attributes).map(([name, value]) => `${name}="${value}"`).join(" ");
     return this.add(`page${this.files.size}.html`, `<!doctype html><link rel="icon" href="data:,"><script type="module" src="/progressive-mesh.js">

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the viewer's tools with pointer, keyboard and screen reader texts, in a real browser with the real daemon, with
-// one page for each colour scheme. axe-core checks every state.
-// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests the viewer's tools by pointer, keyboard and screen reader texts, in a real browser with the
+// real daemon. Each colour scheme has its own page. axe-core checks every state of the page.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { mkdir, readFile } from "node:fs/promises";
@@ -35,7 +35,7 @@ async function faults(viewer) {
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target}: ${failureSummary}`).join("; ")}`);
 }
 
-/** Returns a hash of the canvas, without the elements over it. */
+/** Returns a hash of the canvas's picture, without the controls above it. */
 async function drawn(viewer) {
   await viewer.frames();
   const picture = await viewer.page.locator("canvas").evaluate((canvas) => canvas.toDataURL());
@@ -45,14 +45,23 @@ async function drawn(viewer) {
 /** Waits until the viewer announces a text that contains `words`. */
 const heard = (viewer, words) => viewer.page.locator("[role=status]", { hasText: words }).waitFor({ state: "attached" });
 
-/** Returns the camera position, taken from the link to the current view. */
+/** Returns what the link to the current view says. */
 async function cameraOf(viewer) {
   await viewer.sheet("save");
   return viewer.page.locator("input[name=link]").inputValue().then((link) => new URL(link).hash);
 }
 
-async function open(options) {
-  const viewer = await ViewerPage.open(browser, url, options);
+/** Waits until the viewer has reset itself, as in a kiosk whose visitor has left. The light must not be the initial one. */
+async function idle({ page }) {
+  await page.locator("progressive-mesh").evaluate((element) => element.setAttribute("idle-reset", "0.1"));
+  await page.locator("canvas").press("ArrowLeft");
+  await page.locator("input[value=museum]:checked").waitFor({ state: "attached" });
+  await page.locator(".sheet:not([hidden])").waitFor({ state: "detached" });
+  await page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("idle-reset"));
+}
+
+async function open(options, fragment = "") {
+  const viewer = await ViewerPage.open(browser, url + fragment, options);
   await viewer.page.context().route("**/notes.json", (route) => route.fulfill({ json: [
     { position: [0, 0, 0], normal: [1, 0, 0], title: "Ear", text: "Restored." }, { position: [0, 0.4, 0], title: "Crown" },
   ] }));
@@ -71,6 +80,14 @@ describe("on a wide, light page", () => {
     await viewer.events("first-paint");
   });
   after(() => viewer?.page.context().close());
+
+  test("a hint to drag appears if nobody does anything, until the first touch", async () => {
+    const hint = page.locator(".drag-hint", { hasText: "Drag to turn" });
+    await hint.waitFor();
+    await page.screenshot({ path: join(pictures, "tools-hint.png"), animations: "disabled" });
+    await page.locator("canvas").click();
+    await hint.waitFor({ state: "hidden" });
+  });
 
   test("each choice tells its size, and its wait once the line has been measured", async () => {
     assert.match(await facts("lowest"), /^1\.\d KB at once$/);
@@ -131,6 +148,33 @@ describe("on a wide, light page", () => {
     await page.waitForFunction((hash) => document.querySelector("progressive-mesh").shadowRoot.querySelector("input[name=link]").value.endsWith(hash), link);
   });
 
+  test("a link keeps light, section, surface and the detail that was chosen", async () => {
+    await viewer.sheet("light");
+    await page.locator("label:has([value=raking])").click();
+    await viewer.sheet("section");
+    await page.locator("label:has([value=y])").click();
+    await page.locator("input[name=section-flip]").check();
+    await page.locator("input[name=section-at]").press("ArrowRight");
+    await viewer.sheet("surface");
+    await page.locator("input[name=facets]").check();
+    await viewer.settled(() => button("lowest").click());
+    const link = await cameraOf(viewer);
+    const { view, detail, ...others } = Object.fromEntries(new URLSearchParams(link.slice(1)));
+    assert.ok(view && detail === String(await viewer.triangles()), link);
+    assert.deepEqual(others, { light: "raking,315", section: "y,101,flip", surface: "facets" });
+    const other = await open({ width: 1280, height: 800 }, link);
+    await other.releaseLayers();
+    await other.events("load");
+    assert.equal(await cameraOf(other), link);
+    assert.equal(await other.triangles(), await viewer.triangles());
+    assert.ok(await other.page.locator("[value=raking]").isChecked());
+    assert.ok(await other.page.locator("[name=facets]").isChecked());
+    assert.equal(await drawn(other), await drawn(viewer));
+    await other.page.context().close();
+    await idle(viewer);
+    assert.match(await cameraOf(viewer), /^#view=[^&]*$/);
+  });
+
   test("a picture and the model at the level chosen can be taken along", async () => {
     await viewer.sheet("save");
     const [picture] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save a picture" }).click()]);
@@ -155,16 +199,16 @@ describe("on a wide, light page", () => {
 
   test("raking light comes from where the visitor turns it", async () => {
     await viewer.sheet("light");
-    const studio = await drawn(viewer);
+    const museum = await drawn(viewer);
     await page.locator("label:has([value=raking])").click();
     const left = await drawn(viewer);
-    assert.notEqual(left, studio);
+    assert.notEqual(left, museum);
     await page.getByRole("slider", { name: "Direction of the raking light" }).press("PageUp");
     assert.equal(await page.getByRole("slider", { name: "Direction" }).getAttribute("aria-valuetext"), "0 degrees");
     assert.notEqual(await drawn(viewer), left);
     await page.screenshot({ path: join(pictures, "tools-raking.png"), animations: "disabled" });
-    await page.locator("label:has([value=studio])").click();
-    assert.equal(await drawn(viewer), studio);
+    await page.locator("label:has([value=museum])").click();
+    assert.equal(await drawn(viewer), museum);
   });
 
   test("a section cuts, moves and goes away", async () => {
@@ -186,7 +230,11 @@ describe("on a wide, light page", () => {
     await page.mouse.click(x + width / 2, y + height * 0.3);
     await page.locator("canvas").press("Enter");
     await heard(viewer, "Distance");
-    assert.match(await page.locator(".sheet .result").textContent(), /^[\d.]+ mm$/);
+    assert.match(await page.locator(".sheet .result:not(.size)").textContent(), /^[\d.]+ mm$/);
+    assert.match(await page.locator(".sheet .size").textContent(), /^[\d.]+ × [\d.]+ × [\d.]+ mm$/);
+    assert.match(await page.locator(".scale").textContent(), /^(0\.)?0*[125]0* mm$/);
+    const { width: bar } = await page.locator(".scale").boundingBox();
+    assert.ok(bar > 60 && bar <= 160, `${bar} pixels`);
     await page.screenshot({ path: join(pictures, "tools-measure.png"), animations: "disabled" });
   });
 
@@ -196,14 +244,14 @@ describe("on a wide, light page", () => {
       element.setAttribute("annotations", "/notes.json");
     });
     await page.getByRole("button", { name: "Note 1: Ear" }).click();
-    await heard(viewer, "Seen from the right."); // the announced camera position: the camera has turned to the note
+    await heard(viewer, "Seen from the right."); // announced when the camera has turned to the note
     assert.equal(await page.locator(".notes [aria-current]").textContent(), "EarRestored.");
     assert.ok(await page.locator("b[slot=hotspot-nose]").isVisible());
   });
 
   test("a tool's sheet closes with Escape, and its button has the focus", async () => {
     await viewer.sheet("light");
-    await page.locator("input[value=studio]").press("Escape");
+    await page.locator("input[value=museum]").press("Escape");
     assert.equal(await button("light").getAttribute("aria-expanded"), "false");
     assert.equal(await page.evaluate(() => document.activeElement.shadowRoot.activeElement.name), "light");
   });
@@ -211,13 +259,9 @@ describe("on a wide, light page", () => {
   test("some time after the visitor has left all is as before", async () => {
     const home = await page.evaluate(() => (location.hash = "")).then(() => button("reset").click()).then(() => cameraOf(viewer));
     await viewer.sheet("light");
-    await page.locator("label:has([value=soft])").click();
-    await page.locator("progressive-mesh").evaluate((element) => element.setAttribute("idle-reset", "0.1"));
-    await page.locator("canvas").press("ArrowLeft");
-    await page.locator("input[value=studio]:checked").waitFor({ state: "attached" });
-    await page.locator("button[name=light][aria-expanded=false]").waitFor();
-    await page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("idle-reset"));
-    assert.equal(await cameraOf(viewer), home);
+    await page.locator("label:has([value=studio])").click();
+    await idle(viewer);
+    assert.equal(await cameraOf(viewer), home.replace("&note=1", "")); // the note that the test before has chosen
   });
 
   test("axe finds no fault, whatever is open", async () => {
@@ -252,10 +296,11 @@ test("a narrow, dark page in German has all of it within reach of a finger", asy
   assert.deepEqual(small, []);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
   assert.match(await viewer.counts(), /Dreiecken/);
-  await page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("lang")); // the viewer then uses the language of the page
+  // Without its own `lang`, the viewer uses the language of the page.
+  await page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("lang"));
   await page.locator("button[name=light][title=Light]").waitFor();
   assert.match(await viewer.counts(), /triangles/);
-  assert.ok(await page.locator("input[value=studio]").isChecked());
+  assert.ok(await page.locator("input[value=museum]").isChecked());
   await page.locator("html").evaluate((root) => (root.lang = "de"));
   await page.locator("button[name=light][title=Licht]").waitFor();
   assert.equal(await page.locator("button[name=light]").count(), 1);

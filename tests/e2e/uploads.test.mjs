@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests uploads with the third-party client tus-js-client: the daemon is killed during an upload and restarted, and the
-// uploaded file becomes a model.
+// Tests uploads with the third-party client tus-js-client. The daemon is killed and restarted
+// during an upload. Afterwards, the uploaded file must become a model.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
@@ -41,7 +41,7 @@ function upload(bytes, onProgress = () => undefined) {
   });
 }
 
-/** Starts a job with the request `order`. Resolves to the job's final state when it has ended. */
+/** Starts a job with the request `order`. Resolves to the job's state when the job has ended. */
 async function made(order) {
   const json = { ...headers, "Content-Type": "application/json" };
   const answer = await fetch(`${daemon.url}/api/v1/models`, { method: "POST", headers: json, body: JSON.stringify(order) });

@@ -6,7 +6,7 @@ import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { isDeepStrictEqual } from "node:util";
-import { ViewerPage, launch } from "./browser.mjs";
+import { ViewerPage, launch, newContext } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
 import { readObj, writeColoured } from "./models.mjs";
 
@@ -33,6 +33,7 @@ after(async () => {
 
 test("pages run nothing that somebody has written into a title", async () => {
   const { headers } = await fetch(pages.plain);
+  assert.doesNotMatch(headers.get("content-security-policy"), /unsafe-inline/);
   assert.match(headers.get("content-security-policy"), /^default-src 'self'; script-src 'self' 'wasm-unsafe-eval';/);
 });
 
@@ -96,14 +97,14 @@ for (const kind of ["plain", "coloured"]) {
       });
     }
 
-    test("offers colours only where there are some", async () => {
-      const box = await viewer.toggle("colours");
+    test("offers the form alone only where there are colours", async () => {
+      const box = await viewer.toggle("form");
       assert.equal(await box.isVisible(), kind === "coloured");
       if (kind === "plain") return;
       const coloured = await canvas(viewer);
-      await box.uncheck();
-      assert.notDeepEqual(await canvas(viewer), coloured);
       await box.check();
+      assert.notDeepEqual(await canvas(viewer), coloured);
+      await box.uncheck();
       assert.deepEqual(await canvas(viewer), coloured);
     });
 
@@ -133,6 +134,39 @@ test("the gallery lists what is published", async () => {
   await viewer.page.context().close();
 });
 
+test("a page reads without JavaScript, and an address without an object says so", async () => {
+  const context = await newContext(browser, { javaScriptEnabled: false, viewport: { width: 390, height: 844 } }), page = await context.newPage();
+  await page.goto(pages.plain);
+  for (const name of ["Demosthenes", "About this object"]) await page.getByRole("heading", { name }).waitFor();
+  await page.locator("dd", { hasText: "triangles" }).waitFor();
+  const poster = page.getByRole("img", { name: "Demosthenes" });
+  await poster.waitFor();
+  assert.ok((await poster.boundingBox()).width > 200);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
+  for (const width of [390, 1440]) {
+    await page.setViewportSize({ width, height: 844 });
+    await page.screenshot({ path: join(pictures, `no-script-${width}.png`) });
+  }
+  const answer = await page.goto(`${daemon.url}/models/01hf0000000000000000000000`);
+  assert.equal(answer.status(), 404);
+  await page.getByRole("link", { name: "To the collection" }).waitFor();
+  await page.screenshot({ path: join(pictures, "not-found-1440.png") });
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.screenshot({ path: join(pictures, "not-found-390.png") });
+  assert.equal((await page.goto(`${daemon.url}/api/v1/jobs`)).status(), 401);
+  await page.getByRole("link", { name: "To the console" }).waitFor();
+  await context.close();
+});
+
+test("a browser without WebGL shows the poster and says what is missing", async () => {
+  const viewer = await ViewerPage.open(browser, pages.plain, { init: () => (HTMLCanvasElement.prototype.getContext = () => null) });
+  await viewer.page.getByText("WebGL 2 is missing").waitFor();
+  await viewer.page.waitForFunction(() => document.querySelector("progressive-mesh").shadowRoot.querySelector(".poster").naturalWidth === 960);
+  assert.ok(await viewer.page.locator("progressive-mesh .poster").isVisible());
+  await viewer.page.screenshot({ path: join(pictures, "no-webgl.png") });
+  await viewer.page.context().close();
+});
+
 test("an open surface is seen from behind, too", async () => {
   const away = join(daemon.folder, "away.ply");
   const corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]];
@@ -147,16 +181,16 @@ test("an open surface is seen from behind, too", async () => {
 
 test("is drawn whatever display the page gives the element", async () => {
   const viewer = await ViewerPage.open(browser, pages.plain);
+  // The page's policy forbids style elements, but not scripts that set properties.
+  const style = (text) => viewer.page.locator("progressive-mesh").evaluate((element, css) => void (element.style.cssText = css), text);
   await viewer.events("first-paint");
   for (const display of ["block", "inline-block", "grid"]) {
-    await viewer.page.addStyleTag({
-      content: `progressive-mesh { display: ${display}; flex: none; width: 400px; height: 400px }`,
-    });
+    await style(`display: ${display}; flex: none; width: 400px; height: 400px`);
     const { width, height } = await viewer.page.locator("progressive-mesh canvas").boundingBox();
     assert.equal(width, 400, display);
     assert.ok(height > 250, `${display}: ${height}`);
   }
-  await viewer.page.addStyleTag({ content: "progressive-mesh { display: inline-block; width: auto }" });
+  await style("display: inline-block; flex: none; width: auto");
   const { width } = await viewer.page.locator("progressive-mesh canvas").boundingBox();
   assert.ok(width >= 280, `without a width: ${width}`);
   await viewer.page.context().close();
@@ -166,7 +200,7 @@ test("a page for a narrow, dark screen shows the whole model", async () => {
   const viewer = await ViewerPage.open(browser, pages.coloured, { colorScheme: "dark", width: 360, height: 640 });
   await viewer.releaseLayers();
   await viewer.events("load");
-  // The layout changes when the title arrives.
+  // Waits for the title, because the layout changes when it arrives.
   await viewer.page.getByRole("heading", { name: "Demosthenes, coloured" }).waitFor();
   await viewer.page.screenshot({ path: join(pictures, "narrow-dark.png"), animations: "disabled" });
   const overflow = await viewer.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
@@ -190,19 +224,8 @@ test("the stream brings the whole model without a request for a chunk", async ()
 test("draws again when a lost WebGL context comes back", async () => {
   const viewer = await refined(pages.plain);
   const before = await canvas(viewer);
-  await viewer.page.evaluate(async () => {
-    const place = document.querySelector("progressive-mesh").shadowRoot.querySelector("canvas");
-    const context = place.getContext("webgl2").getExtension("WEBGL_lose_context");
-    const heard = (type) => new Promise((resolve) => place.addEventListener(type, resolve, { once: true }));
-    const lost = heard("webglcontextlost");
-    context.loseContext();
-    await lost;
-    await new Promise(requestAnimationFrame); // a lost context cannot be restored before its event has been handled
-    const restored = heard("webglcontextrestored");
-    context.restoreContext();
-    await restored;
-  });
-  // Polls, because the surface is uploaded again in slices.
+  await viewer.loseContext();
+  // Polls, because the surface is uploaded to the new context in several steps.
   await until(async () => isDeepStrictEqual(await canvas(viewer), before));
   await viewer.page.context().close();
 });
@@ -240,7 +263,10 @@ test("says so when the page forbids its worker", async () => {
   await viewer.page.context().close();
 });
 
-/** Opens a page and waits until all requested detail is shown: the whole model, unless `attributes` request less. */
+/**
+ * Opens a page and waits until all requested detail is shown. That is the whole model, unless
+ * `attributes` request less.
+ */
 async function refined(url, attributes) {
   const viewer = await ViewerPage.open(browser, url, { attributes });
   await viewer.events("first-paint");
@@ -255,7 +281,8 @@ test("with a pixel error the camera decides what is fetched", async () => {
   assert.ok(far < mesh.faces.length, "the whole is not needed from afar");
   const box = await viewer.page.locator("progressive-mesh").boundingBox();
   await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 3);
-  await viewer.sharpened(far, () => viewer.page.mouse.wheel(0, -4000)); // more detail is visible when the camera is near
+  // Moves the camera near the model, so that more detail becomes visible.
+  await viewer.sharpened(far, () => viewer.page.mouse.wheel(0, -4000));
   assert.ok(viewer.askedChunks > asked);
   assert.deepEqual(await viewer.complaints(), []);
   await viewer.page.context().close();
@@ -281,7 +308,8 @@ test("the far side of the surface does not speckle its outline", async () => {
       const end = 4 * width * (y + 1);
       let at = end - 4 * width;
       while (at < end && data[at + 3] === 0) at += 4;
-      // Rows are skipped if they have no surface, or no partly covered pixel at the surface's edge.
+      // Skips rows without a surface, and rows without a partly covered pixel at the surface's
+      // edge.
       if (at === end || data[at + 3] === 255) continue;
       const edge = (255 * data[at]) / data[at + 3];
       while (data[at + 3] < 255) at += 4;
@@ -305,18 +333,24 @@ test("the code of a first visit travels packed, in less than half of its bytes",
   await viewer.page.context().close();
 });
 
-/** Polls until `holds` resolves to true. Only the timeout of the whole test limits the wait. */
+/** Polls until `holds` resolves to true. Only the timeout of the whole test ends the polling. */
 async function until(holds) {
   while (!(await holds()));
 }
 
-/** Returns a hash of the viewer's upper half, which has no controls. Saves the picture if `name` is given. */
+/**
+ * Returns a hash of the picture in the viewer's upper half, which has no controls. Saves the
+ * picture if `name` is given.
+ */
 async function canvas(viewer, name) {
   const bytes = await viewer.picture(name && join(pictures, `${name}.png`));
   return crop(viewer, bytes);
 }
 
-/** Returns the SHA-256 of the pixels in a picture's upper half, without the panel and the sheet at the bottom. */
+/**
+ * Returns the SHA-256 of the pixels in the upper half of a picture. The panel and the sheet are in
+ * the lower half.
+ */
 function crop(viewer, png) {
   return viewer.page.evaluate(async (base64) => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
@@ -329,7 +363,7 @@ function crop(viewer, png) {
   }, png.toString("base64"));
 }
 
-/** Whether a picture shows more than the smooth background: its centre differs from its corner. */
+/** Returns whether a picture shows more than the smooth background: its centre must differ from its corner. */
 function differs(viewer, png) {
   return viewer.page.evaluate(async (base64) => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds the memory of a fuzz target. The run aborts if an input uses more memory than its size
+// Bounds the memory of a fuzz target. Aborts the run if an input needs more memory than its size
 // allows.
 #pragma once
 

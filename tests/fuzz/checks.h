@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Helper functions that several fuzzers share.
+// Functions that several fuzzers share.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace vitrine::fuzz {
 
-// Aborts the run if `condition` is false. The fuzzer then reports the input, as it does for faults
-// that a sanitizer finds.
+// Aborts the run if `condition` is false. The fuzzer then reports the input, as it does if a
+// sanitizer finds a fault.
 inline void require(bool condition) {
   if (!condition) std::abort();
 }

@@ -15,14 +15,14 @@ ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests/fuzz/corpus"
 # minimum share of the decoder's lines that the corpora must reach, in per cent
 LEAST_OF_DECODER = 95
-DECODER = r"codec/(?:format|coding|refine|plan)/\w+"
+DECODER = r"codec/(?:base|format|coding|refine|plan)/\w+"
 
 
 def decoder_sources(lines):
     """Returns the sources of the decoder with the headers that they include. These are the sources that the browser
-    compiles, connectivity, and the native decoder of the base mesh. Omits codec/core, which the encoder shares."""
+    compiles, and connectivity. Omits codec/core, which the encoder shares."""
     listed = set(re.findall(DECODER + r"\.cpp", (ROOT / "codec/wasm/CMakeLists.txt").read_text()))
-    listed |= {"codec/mesh/connectivity.cpp", "codec/base/base_decoder.cpp", "codec/build/refine.cpp"}
+    listed |= {"codec/mesh/connectivity.cpp", "codec/build/refine.cpp"}
     return set(lines) & with_headers(listed)
 
 
@@ -69,7 +69,7 @@ def main():
     merged = Path(build, "fuzz/profile")
     subprocess.run([profdata, "merge", "-o", merged, *profiles], check=True)
     lines = count_lines(cov, merged, programs)
-    decoder, readers = decoder_sources(lines), {source for source in lines if source.startswith(("codec/gltf/", "codec/import/", "codec/picture/"))}
+    decoder, readers = decoder_sources(lines), {source for source in lines if source.startswith(("codec/gltf/", "codec/import/", "codec/package/", "codec/picture/"))}
     for source in sorted(decoder | readers):
         show(source, [lines[source]])
     print()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a fuzz target once on every file of the given folders. The tests use it on the committed
-// corpora.
+// Runs a fuzz target once on every file of the given folders. The tests run all fuzz targets on the
+// committed corpora in this way.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden/golden_models.h"
 
+#include <array>
+#include <span>
+
+#include "codec/build/face_set.h"
+#include "codec/build/open_model.h"
 #include "codec/core/byte_cursor.h"
 #include "support/product_names.h"
+#include "support/random_atlas.h"
 #include "support/random_mesh.h"
 
 namespace vitrine::test {
 namespace {
 
-// Returns a hilly square of side² vertices on the lattice, or a tube if `closed`. All numbers are
-// integers, so that the mesh is the same on every machine.
+// Returns a hilly square of side² vertices on the lattice, or a tube if `closed` is true. All
+// computations use integers, so the mesh is the same on every machine.
 LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool closed) {
   LatticeMesh mesh;
   mesh.lattice = {.origin = {-1, 2, 0.5}, .step = 0.125, .bits = bits};
@@ -28,7 +34,7 @@ LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool closed) {
       }
     }
   }
-  // A row of a closed tube has one quad more than a row of a sheet.
+  // A closed row of a tube has one more square than a row of a sheet.
   const std::uint32_t quads = closed ? side : side - 1;
   for (std::uint32_t j = 0; j + 1 < side; ++j) {
     for (std::uint32_t i = 0; i < quads; ++i) {
@@ -45,7 +51,68 @@ LatticeMesh with_specks(LatticeMesh mesh) {
   return mesh;
 }
 
+std::string surface_digest(const Refiner& refiner) {
+  ByteWriter out;
+  for (const SurfaceFace& face : canonical_surface(refiner.lattice_mesh())) {
+    for (const std::int32_t value : face)
+      out.u32(static_cast<std::uint32_t>(value));
+  }
+  return to_hex(sha256(out.take()));
+}
+
+std::string texture_digest(const Refiner& refiner) {
+  ByteWriter out;
+  for (const TexturedFaceKey& face : textured_face_set(refiner)) {
+    for (const auto& [p, uv] : face) {
+      for (const std::int32_t value : {p.x, p.y, p.z, uv.x, uv.y})
+        out.u32(static_cast<std::uint32_t>(value));
+    }
+  }
+  return to_hex(sha256(out.take()));
+}
+
+// WebP files of one pixel without loss.
+constexpr std::array<std::uint8_t, 38> kOchre = {
+    0x52, 0x49, 0x46, 0x46, 0x1e, 0x00, 0x00, 0x00, 0x57, 0x45, 0x42, 0x50, 0x56,
+    0x50, 0x38, 0x4c, 0x11, 0x00, 0x00, 0x00, 0x2f, 0x00, 0x00, 0x00, 0x00, 0x07,
+    0x50, 0xcb, 0x22, 0x97, 0xac, 0xff, 0x81, 0x88, 0xe8, 0x7f, 0x00, 0x00};
+constexpr std::array<std::uint8_t, 38> kFlatNormal = {
+    0x52, 0x49, 0x46, 0x46, 0x1e, 0x00, 0x00, 0x00, 0x57, 0x45, 0x42, 0x50, 0x56,
+    0x50, 0x38, 0x4c, 0x11, 0x00, 0x00, 0x00, 0x2f, 0x00, 0x00, 0x00, 0x00, 0x07,
+    0x50, 0xc0, 0x02, 0xf6, 0xbf, 0xff, 0x81, 0x88, 0xe8, 0x7f, 0x00, 0x00};
+
+// Adds a picture to the head of a textured model, and one behind its chunks.
+StoredModel with_pictures(StoredModel model) {
+  model.manifest = parse_header(model.file).value();
+  const std::span<const std::uint8_t> before(model.file);
+  const std::uint64_t body = model.manifest.base_offset, chunks = model.manifest.head_bytes();
+  TextureInfo& texture = model.manifest.texture;
+  texture.in_head = 1;
+  texture.pictures = {{.role = PictureRole::kBaseColour,
+                       .side = 1,
+                       .length = kOchre.size(),
+                       .sha256 = sha256(kOchre)},
+                      {.role = PictureRole::kNormal,
+                       .side = 1,
+                       .length = kFlatNormal.size(),
+                       .sha256 = sha256(kFlatNormal)}};
+  std::vector<std::uint8_t> file = write_header(model.manifest);
+  for (const auto part :
+       {before.subspan(body, chunks - body), std::span<const std::uint8_t>(kOchre),
+        before.subspan(chunks), std::span<const std::uint8_t>(kFlatNormal)})
+    file.insert(file.end(), part.begin(), part.end());
+  model.file = std::move(file);
+  return model;
+}
+
 }  // namespace
+
+StoredModel stored(const GoldenModel& golden) {
+  StoredModel model = store_model(golden.mesh, golden.options);
+  if (!golden.is_textured) return model;
+  const BaseAtlas atlas = random_atlas(model.base, 1);
+  return with_pictures(with_atlas(std::move(model), atlas));
+}
 
 std::vector<GoldenModel> golden_models() {
   return {
@@ -62,6 +129,14 @@ std::vector<GoldenModel> golden_models() {
       {"specks_regions_coloured",
        with_specks(hills(20, 12, true, false)),
        {.target_vertices = 60, .region_vertices = 150}},
+      {"sheet_regions_textured",
+       hills(40, 14, false, false),
+       {.target_vertices = 60, .region_vertices = 420, .omits_components = false},
+       true},
+      {"parts_regions_textured",
+       random_mesh(4, 200),
+       {.target_vertices = 40, .region_vertices = 40, .omits_components = false},
+       true},
       {"triangle",
        {.lattice = {},
         .positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 1}},
@@ -71,26 +146,23 @@ std::vector<GoldenModel> golden_models() {
   };
 }
 
-std::string level_digests(const Manifest& manifest, const BaseMesh& base,
-                          std::span<const std::uint8_t> file) {
-  auto refiner = Refiner::start(manifest, base);
+std::string level_digests(std::span<const std::uint8_t> file) {
+  auto refiner = open_model(file);
   if (!refiner) return refiner.error().message;
+  const Manifest& manifest = refiner->manifest();
+  const ChunkReader read = chunks_of(manifest, file);
   std::string text;
   std::size_t chunk = 0;
   for (std::uint32_t level = 0; level < manifest.levels.size(); ++level) {
     for (; chunk < manifest.chunks.size() && manifest.chunks[chunk].level <= level; ++chunk) {
-      const ChunkInfo& info = manifest.chunks[chunk];
-      const auto bytes = file.subspan(info.offset, info.length);
-      if (sha256(bytes) != info.sha256) return "a chunk's checksum differs";
-      if (auto ok = refiner->apply(chunk, bytes); !ok) return ok.error().message;
-    }
-    ByteWriter out;
-    for (const SurfaceFace& face : canonical_surface(refiner->lattice_mesh())) {
-      for (const std::int32_t value : face)
-        out.u32(static_cast<std::uint32_t>(value));
+      const auto bytes = read(chunk);
+      if (!bytes) return bytes.error().message;
+      if (auto ok = refiner->apply(chunk, *bytes); !ok) return ok.error().message;
     }
     text += std::to_string(level) + ' ' + std::to_string(refiner->vertex_count()) + ' ' +
-            std::to_string(refiner->face_count()) + ' ' + to_hex(sha256(out.take())) + '\n';
+            std::to_string(refiner->face_count()) + ' ' + surface_digest(*refiner);
+    if (!refiner->wedges().empty()) text += ' ' + texture_digest(*refiner);
+    text += '\n';
   }
   return text;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The models of tests/golden, and the text in a golden file that describes a model's levels.
+// The models of tests/golden, and the text of the .levels files, which describe a model's levels.
 #pragma once
 
 #include <string>
@@ -11,17 +11,20 @@
 namespace vitrine::test {
 
 struct GoldenModel {
-  std::string name;  // the files are NAME.pmesh and NAME.levels
+  std::string name;  // the files are named NAME.pmesh and NAME.levels
   LatticeMesh mesh;
   SimplifyOptions options;
+  bool is_textured = false;  // whether the base mesh has a random atlas, with two small pictures
 };
 
 std::vector<GoldenModel> golden_models();
 
+StoredModel stored(const GoldenModel& golden);
+
 // Returns one line per level: the level's number, its counts of vertices and faces, and the SHA-256
-// of its canonical surface, whose numbers are hashed as 32-bit little-endian integers. Returns an
-// error message if a chunk is damaged.
-std::string level_digests(const Manifest& manifest, const BaseMesh& base,
-                          std::span<const std::uint8_t> file);
+// of its canonical surface, and, if the model has a texture, that of the positions and texture
+// coordinates of its faces (face_set.h). Numbers are hashed as 32-bit little-endian integers.
+// Returns an error message if the file is damaged.
+std::string level_digests(std::span<const std::uint8_t> file);
 
 }  // namespace vitrine::test

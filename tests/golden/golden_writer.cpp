@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// golden_writer FOLDER: writes the golden files into a folder.
+// Writes the golden files into a folder. Usage: golden_writer FOLDER.
 #include <cstdio>
 #include <fstream>
 
@@ -9,12 +9,12 @@ int main(int argc, char** argv) {
   if (argc != 2) return std::puts("usage: golden_writer FOLDER"), 2;
   const std::string folder = argv[1];
   for (const auto& golden : vitrine::test::golden_models()) {
-    const auto model = vitrine::test::store_model(golden.mesh, golden.options);
+    const auto model = vitrine::test::stored(golden);
     std::ofstream pmesh(folder + "/" + golden.name + ".pmesh", std::ios::binary);
     pmesh.write(reinterpret_cast<const char*>(model.file.data()),
                 static_cast<std::streamsize>(model.file.size()));
     std::ofstream text(folder + "/" + golden.name + ".levels");
-    text << vitrine::test::level_digests(model.manifest, model.base, model.file);
+    text << vitrine::test::level_digests(model.file);
     if (!pmesh.flush() || !text.flush()) return std::puts("cannot write there"), 1;
   }
   return 0;

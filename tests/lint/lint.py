@@ -103,7 +103,7 @@ PUBLIC_HEADER = Path("codec/vitrine.h")  # includes the modules that users of th
 # The headers whose inclusion shows that a source uses a library of ARCHITECTURE.md.
 LIBRARIES = {"Aravis": "arv", "Boost": "boost/", "CURL": "curl/", "Draco": "draco/", "Embree": "embree3/", "LibArchive": "archive",
              "OpenCV": "opencv2/", "OpenMesh": "OpenMesh/", "OpenSSL": "openssl/", "PNG": "png.h", "PostgreSQL": "libpq-fe.h",
-             "SQLite": "sqlite3.h", "TurboJPEG": "turbojpeg.h", "WebP": "webp/", "fmt": "fmt/", "libsystemd": "systemd/", "libusb": "libusb.h",
+             "SQLite": "sqlite3.h", "TurboJPEG": "turbojpeg.h", "WebP": "webp/", "ZLIB": "zlib.h", "fmt": "fmt/", "libsystemd": "systemd/", "libusb": "libusb.h",
              "meshoptimizer": "meshoptimizer.h", "nlohmann-json": "nlohmann/", "pugixml": "pugixml.hpp", "seccomp": "seccomp.h",
              "threads": ("thread", "future"), "tl-expected": "tl/", "umockdev": "umockdev.h"}
 
@@ -228,8 +228,8 @@ def types(root):
 
 FORMAT_TABLES = (Path("codec/import/formats.h"), Path("codec/export/write_mesh.h"))
 FORMAT_ROW = re.compile(r'\.name = "(\w+)",\s+\.extension = "(\w+)"')
-NAME_LIST = re.compile(r"\b(?:[A-Z]{3,4}|glTF)(?:, (?:[A-Z]{3,4}|glTF))+,? (?:and|or|und|oder) (?:[A-Z]{3,5}|glTF)\b")
-EXTENSION_LIST = re.compile(r"(?<!\w)\.?(?:[a-z]{3,4}(?:,|, |\"?, \"|\|)\.?){2,}(?:(?:or|and) \.?)?[a-z]{3,4}\b")
+NAME_LIST = re.compile(r"\b(?:[A-Z0-9]{3,4}|glTF)(?:, (?:[A-Z0-9]{3,4}|glTF))+,? (?:and|or|und|oder) (?:[A-Z0-9]{3,5}|glTF)\b")
+EXTENSION_LIST = re.compile(r"(?<!\w)\.?(?:[a-z0-9]{3,4}(?:,|, |\"?, \"|\|)\.?){2,}(?:(?:or|and) \.?)?[a-z0-9]{3,4}\b")
 
 
 def formats(root):
@@ -244,7 +244,7 @@ def formats(root):
         for number, line in enumerate(text(root, path).splitlines(), 1):
             for pattern, known in ((NAME_LIST, names), (EXTENSION_LIST, extensions)):
                 for found in pattern.finditer(line):
-                    listed = set(re.findall(r"[A-Za-z]{3,5}", found[0])) & set().union(*known)
+                    listed = set(re.findall(r"[A-Za-z0-9]{3,5}", found[0])) & set().union(*known)
                     if len(listed) > 3 and listed not in known:
                         yield path, number, f'"{found[0]}" lists other formats than the tables in {", ".join(map(str, tables))}'
 

@@ -13,20 +13,20 @@ CODE_LINES = 3  # number of lines of code shown below each comment
 
 
 def comments(root):
-    """Yields (path, first line, text with the code below) of each comment except licence lines."""
+    """Yields (path, first line, text with the code below) of each comment except licence lines and marks for tools."""
     for path in lint.files(root):
         if path.suffix not in SOURCES or "corpus" in path.parts:
             continue
         lines, at = lint.text(root, path).splitlines(), 0
         while at < len(lines):
             end = at
-            while end < len(lines) and re.match(r"\s*(//|/\*|\*/|\*$|\* [^{])", lines[end]):
+            while end < len(lines) and re.match(r"\s*(//(?! NOLINT)|/\*(?!\w+=)|\*/|\*$|\* [^{])", lines[end]):
                 end += 1
             if end > at:
                 block = [line for line in lines[at:end] if "SPDX" not in line]
                 if block:
                     yield path, at + 1, "\n".join(block + lines[end : end + CODE_LINES])
-            elif re.search(r"\S.*\s//\s(?!namespace)", lines[at]):
+            elif re.search(r"\S.*\s//\s(?!namespace|NOLINT)", lines[at]):
                 yield path, at + 1, lines[at]
             at = max(end, at + 1)
 

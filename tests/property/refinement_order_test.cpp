@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that chunks give the same mesh in every order that the region rule permits, and that their
-// splits can be undone.
+// Tests that chunks give the same mesh in every order that the region rule permits. Also tests that
+// their vertex splits can be undone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,8 +37,8 @@ void expect_manifold(const Refiner& refiner) {
   ASSERT_EQ(closed->loop_count(), refiner.connectivity().loop_count());
 }
 
-// Refines a model in a random order. After each chunk, the surface must equal that which the same
-// set of chunks gave in an earlier order. `known` holds the surface of each set.
+// Refines a model in a random order. If an earlier order reached the same set of chunks, the
+// surface must be the same. `known` holds the surface of each set of chunks.
 void refine_at_random(const StoredModel& model, Dice& dice,
                       std::map<std::vector<bool>, SurfaceFaces>& known) {
   Refiner refiner = start_refiner(model);
@@ -92,8 +92,8 @@ TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
   }
 }
 
-// Returns the surface with its positions converted to cells of `level`. This drops the lower bits,
-// which a chunk adds to the positions and an undo does not clear.
+// Returns the surface with its positions rounded to cells of `level`. A chunk adds lower bits to
+// the positions, which an undo does not clear; rounding drops them.
 SurfaceFaces surface_in_cells(const Refiner& refiner, std::uint32_t level) {
   LatticeMesh mesh = refiner.lattice_mesh();
   for (Vec3i& p : mesh.positions)
@@ -101,8 +101,8 @@ SurfaceFaces surface_in_cells(const Refiner& refiner, std::uint32_t level) {
   return canonical_surface(mesh);
 }
 
-// Applies the first `chunks` chunks in file order. Undoes first a part of the last chunk and then
-// all of it. The surface must then be that before the last chunk.
+// Applies the first `chunks` chunks in file order. Then undoes a part of the last chunk, and
+// finally all of it. The surface must then be the same as before the last chunk.
 void expect_undo(const StoredModel& model, Dice& dice, std::size_t chunks) {
   Refiner refiner = start_refiner(model);
   for (std::size_t i = 0; i + 1 < chunks; ++i)

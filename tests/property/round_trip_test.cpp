@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random meshes must be decoded exactly as they were encoded.
+// Tests that random meshes are decoded exactly as they were encoded.
 #include <gtest/gtest.h>
 
 #include "support/product_names.h"

@@ -6,7 +6,8 @@
 
 namespace vitrine::test {
 
-// Forwards all calls to another catalogue. Base class for catalogues that differ in one function.
+// A catalogue that forwards all calls to another catalogue. Tests derive from this class to replace
+// single functions.
 class CatalogueBefore : public Catalogue {
  public:
   explicit CatalogueBefore(Catalogue& before) : before_(before) {}
@@ -45,6 +46,7 @@ class CatalogueBefore : public Catalogue {
   }
   Expected<void> revoke_token(const TokenId& id) override { return before_.revoke_token(id); }
   Expected<std::uint64_t> revision() override { return before_.revision(); }
+  void when_hidden(ChunksHidden hidden) override { before_.when_hidden(std::move(hidden)); }
 
  protected:
   Catalogue& before_;

@@ -24,6 +24,7 @@ struct FakeScanner {
   std::string name = "rig";
   std::function<std::optional<Error>(int step)> before_step;  // called before each step; may block
   std::function<void()> while_opening;  // called at the start of identify(); may block
+  std::function<void()> while_turning;  // called by jog() while the table turns; may block
 
   bool stopped() const { return stops > allowed; }
 
@@ -35,6 +36,14 @@ struct FakeScanner {
   std::atomic<std::uint64_t> stops{0}, allowed{0};
   std::atomic<int> calls{0}, steps{0}, calibrations{1}, damaged{0};
   std::atomic<double> degrees{0};
+  PowerRecord power;         // both are off at first
+  std::atomic<int> kept{0};  // number of calls of keep_laser()
+
+  FakeScanner() { power.both_off(); }
+  void light(bool on) {
+    laser = on;
+    power.laser(on ? LaserState::kOn : LaserState::kOff);
+  }
 };
 
 inline constexpr std::size_t kFakePoints = 10;  // points per step
@@ -87,13 +96,22 @@ class FakeBackend final : public ScannerBackend {
   Expected<void> jog(double degrees) override {
     if (auto ready = use(); !ready) return ready;
     if (world_.jams) return fail(ErrorCode::kIo, "the motor is stuck; free the table");
+    world_.power.motor(MotorState::kTurning);
+    if (world_.while_turning) world_.while_turning();
+    world_.power.motor(MotorState::kOff);
+    world_.light(false);
+    if (auto ready = use(); !ready) return ready;
     world_.degrees = world_.degrees + degrees;
     return {};
   }
   Expected<void> laser(bool on) override {
     if (auto ready = use(); !ready) return ready;
-    world_.laser = on;
+    world_.light(on);
     return {};
+  }
+  Expected<void> keep_laser() override {
+    ++world_.kept;
+    return use();
   }
   Expected<Frame> picture() override {
     if (auto ready = reach(); !ready) return tl::unexpected(ready.error());
@@ -110,7 +128,7 @@ class FakeBackend final : public ScannerBackend {
     for (const int stored = steps_in(folder); step < stored; ++step)
       view->add_step(step);
     listener.begins(view);
-    world_.laser = true;
+    world_.light(true);
     const LightsOff off{world_};
     for (; step < order.request.steps; ++step) {
       listener.report({.step = step,
@@ -146,11 +164,16 @@ class FakeBackend final : public ScannerBackend {
     return ++world_.calibrations;
   }
 
-  void close() override { world_.open = false; }
+  void close() override {
+    world_.open = false;
+    world_.light(false);
+  }
   const std::string& name() const override { return world_.name; }
+  BoardPower power() const override { return world_.power.read(); }
   void emergency_stop() noexcept override {
     ++world_.stops;
-    world_.laser = false;
+    world_.light(false);
+    world_.power.motor(MotorState::kOff);
   }
   std::uint64_t stops() const noexcept override { return world_.stops; }
   void allow(std::uint64_t stops) noexcept override {
@@ -189,7 +212,7 @@ class FakeBackend final : public ScannerBackend {
  private:
   struct LightsOff {
     FakeScanner& world;
-    ~LightsOff() { world.laser = false; }
+    ~LightsOff() { world.light(false); }
   };
 
   Expected<void> use() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upper bounds of the heap memory that the codec uses for hostile bytes. The public headers promise
-// these bounds.
+// Defines upper bounds of the heap memory that the codec uses for hostile bytes. The public headers
+// promise these bounds.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,13 @@ struct HeapBound {
 // The bound in refiner.h for a chunk that adds the maximum of 16 vertices per byte, plus the memory
 // for the parsed header.
 inline constexpr HeapBound kDecodingHeap{1 << 20, 2'500};
+
+// The bound for a textured model. A split of valence 24 may save 24 wedges of 12 bytes for its
+// undo, and a face may have three wedges of its own.
+inline constexpr HeapBound kDecodingTextureHeap{1 << 20, 9'500};
+
+// The bound in base_decoder.h, plus messages.
+inline constexpr HeapBound kBaseHeap{4 << 10, 1'000};
 
 // The bound in read_mesh.h, plus a reader's own buffers and messages.
 inline constexpr std::size_t kReaderAlways = 8 << 10;

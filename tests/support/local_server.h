@@ -69,6 +69,7 @@ class LocalServer {
   Collector& collector() { return collector_; }
   Uploads& uploads() { return uploads_; }
   ObjectStore& store() { return *installation_.store; }
+  LiveSettings& settings() { return settings_; }
   const Metrics& metrics() const { return metrics_; }
 
   // Creates a token. Returns the header line "Authorization: Bearer ...\r\n" with it.
@@ -97,8 +98,10 @@ class LocalServer {
     return options;
   }
 
+  using NoFaults = Expected<std::vector<std::string>>;
   static constexpr std::uint8_t kPlain[] = {'p', 'l', 'a', 'i', 'n'}, kPacked[] = {'g', 'z'};
   static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}},
+                                        {"/console.html", "text/html; charset=utf-8", {}},
                                         {"/docs.js", "text/javascript", kPlain, kPacked}};
 
   TemporaryFolder folder_;
@@ -114,10 +117,16 @@ class LocalServer {
   WebPages pages_{kPages};
   LiveSettings settings_{Settings{}};
   Metrics metrics_;
+  VisitCounter visits_{*installation_.visits};
   Authenticator tokens_{*installation_.catalogue};
   Log events_ = Log::open(folder_.path() / "events.log").value();
   Collector collector_{{*installation_.store, *installation_.catalogue, *installation_.jobs,
                         uploads_, events_, std::chrono::seconds(0)}};
+  Scrubber scrubber_{{.store = *installation_.store,
+                      .catalogue = *installation_.catalogue,
+                      .models = models_,
+                      .catalogue_faults = [] { return NoFaults(); },
+                      .events = events_}};
   Webhooks webhooks_{{"127.0.0.1"}, events_};
   Services services_{.store = *installation_.store,
                      .catalogue = *installation_.catalogue,
@@ -127,11 +136,13 @@ class LocalServer {
                      .uploads = uploads_,
                      .quota = quota_,
                      .collector = collector_,
+                     .scrubber = scrubber_,
                      .webhooks = webhooks_,
                      .exports = exports_,
                      .pages = pages_,
                      .settings = settings_,
                      .metrics = metrics_,
+                     .visits = visits_,
                      .log = log_,
                      .errors = events_,
                      .ready = true};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small meshes for tests, and the meshes of tests/models.
+// Makes small meshes for tests, and reads the meshes of tests/models.
 #pragma once
 
 #include <algorithm>

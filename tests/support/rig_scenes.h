@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes with a known laser stripe, and the position of the stripe in a frame.
+// Makes shapes with a known laser stripe, and computes the position of the stripe in a frame.
 #pragma once
 
 #include <cmath>
@@ -66,7 +66,7 @@ inline Setting at(double degrees, bool laser) {
 }
 
 // Returns the centre of mass of the laser's light in row `v` near column `u`; nullopt if there is
-// little light.
+// too little light to tell.
 inline std::optional<double> centre(const Frame& lit, const Frame& dark, int v, double u) {
   double sum = 0, moment = 0;
   const int middle = static_cast<int>(std::lround(u));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A data folder with published models, for tests of the daemon.
+// Makes a data folder with published models, for tests of the daemon.
 #pragma once
 
 #include <stdexcept>

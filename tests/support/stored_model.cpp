@@ -6,6 +6,7 @@
 
 #include "codec/base/base_decoder.h"
 #include "codec/build/model_encoder.h"
+#include "codec/coding/atlas_coder.h"
 #include "support/product_names.h"
 
 namespace vitrine::test {
@@ -31,6 +32,22 @@ StoredModel store_model(const LatticeMesh& fine, const SimplifyOptions& options)
           std::span(model.file).subspan(model.manifest.base_offset, model.manifest.base_length),
           model.manifest),
       "base");
+  return model;
+}
+
+StoredModel with_atlas(StoredModel model, const BaseAtlas& atlas) {
+  model.base.atlas = atlas;
+  const auto coded = encode_atlas(model.base);
+  Manifest& manifest = model.manifest;
+  const std::uint64_t base = manifest.base_offset, chunks = base + manifest.base_length;
+  const std::span<const std::uint8_t> before(model.file);
+  manifest.texture = {
+      .side = kMaxAtlasSide, .atlas_length = coded.size(), .atlas_sha256 = sha256(coded)};
+  std::vector<std::uint8_t> file = write_header(manifest);
+  for (const auto part : {before.subspan(base, manifest.base_length),
+                          std::span<const std::uint8_t>(coded), before.subspan(chunks)})
+    file.insert(file.end(), part.begin(), part.end());
+  model.file = std::move(file);
   return model;
 }
 

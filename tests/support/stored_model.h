@@ -24,6 +24,9 @@ struct StoredModel {
 // Simplifies, codes, writes and parses the mesh. Throws std::runtime_error if a step fails.
 StoredModel store_model(const LatticeMesh& fine, const SimplifyOptions& options);
 
+// Returns the model with a texture: `atlas` belongs to model.base. It has no pictures.
+StoredModel with_atlas(StoredModel model, const BaseAtlas& atlas);
+
 Refiner start_refiner(const StoredModel& model);
 void apply_chunk(Refiner& refiner, const StoredModel& model, std::size_t chunk);
 std::vector<std::size_t> ready_chunks(const Refiner& refiner);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a .pmesh file whose container is valid. Its base mesh and chunk are plain text, which no
-// test decodes.
+// Makes a .pmesh file whose container is valid. Its base mesh, chunk, atlas and pictures are plain
+// text, which no test decodes.
 #pragma once
 
 #include <string>
@@ -20,7 +20,10 @@ inline std::vector<std::uint8_t> to_bytes(std::string_view text) {
   return {text.begin(), text.end()};
 }
 
-inline TinyPmesh tiny_pmesh(std::string_view base_text, std::string_view chunk_text) {
+// If `pictures` is not empty, the model has a texture. Its atlas is the text "the atlas", and its
+// first picture is in the head.
+inline TinyPmesh tiny_pmesh(std::string_view base_text, std::string_view chunk_text,
+                            const std::vector<std::string_view>& pictures = {}) {
   const auto base = to_bytes(base_text), chunk = to_bytes(chunk_text);
   TinyPmesh result;
   Manifest& m = result.manifest;
@@ -32,9 +35,25 @@ inline TinyPmesh tiny_pmesh(std::string_view base_text, std::string_view chunk_t
   m.base_sha256 = sha256(base);
   m.chunks = {
       {.level = 1, .region = 0, .length = chunk.size(), .splits = 2, .sha256 = sha256(chunk)}};
+  const auto atlas = to_bytes(pictures.empty() ? "" : "the atlas");
+  if (!pictures.empty())
+    m.texture = {.side = 4096, .atlas_length = atlas.size(), .atlas_sha256 = sha256(atlas)};
+  for (const std::string_view text : pictures) {
+    m.texture.pictures.push_back(
+        {.side = 256, .length = text.size(), .sha256 = sha256(to_bytes(text))});
+    m.texture.in_head = 1;
+  }
   result.bytes = write_header(m);
-  result.bytes.insert(result.bytes.end(), base.begin(), base.end());
-  result.bytes.insert(result.bytes.end(), chunk.begin(), chunk.end());
+  const auto append = [&](std::string_view text) {
+    result.bytes.insert(result.bytes.end(), text.begin(), text.end());
+  };
+  append(base_text);
+  append({reinterpret_cast<const char*>(atlas.data()), atlas.size()});
+  for (std::size_t i = 0; i < m.texture.in_head; ++i)
+    append(pictures[i]);
+  append(chunk_text);
+  for (std::size_t i = m.texture.in_head; i < pictures.size(); ++i)
+    append(pictures[i]);
   return result;
 }
 

@@ -31,14 +31,14 @@ class WebhookListener {
   }
   const std::string& host() const { return host_; }
 
-  // Accepts the next request. The body must be a JSON object, unless the request is a GET. The
-  // client gets no response until the returned descriptor is closed.
+  // Accepts the next request. A POST must have a JSON object as its body; other requests have none.
+  // The client gets no response until the returned descriptor is closed.
   FileDescriptor accept(std::string& request) {
     FileDescriptor peer(uninterrupted([&] { return ::accept(socket_.get(), nullptr, nullptr); }));
     char buffer[1024];
     const auto ends = [&] {
       return request.ends_with("}") ||
-             (request.starts_with("GET ") && request.ends_with("\r\n\r\n"));
+             (!request.starts_with("POST ") && request.ends_with("\r\n\r\n"));
     };
     while (!ends()) {
       const ssize_t n = ::read(peer.get(), buffer, sizeof buffer);

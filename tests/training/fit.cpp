@@ -8,8 +8,8 @@
 namespace vitrine::training {
 namespace {
 
-// Returns -ln of the probability of a chunk's decisions under a beta prior with the parameters
-// `zeros` and `ones`.
+// Returns the cost of a chunk's decisions: minus the natural logarithm of their probability, under
+// a beta prior with the parameters `zeros` and `ones`.
 double cost(const BitCounts& c, double zeros, double ones) {
   return std::lgamma(zeros) + std::lgamma(ones) - std::lgamma(zeros + ones) -
          std::lgamma(zeros + c.zeros) - std::lgamma(ones + c.ones) +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits the initial state of an adaptive bit to its decisions in many chunks.
+// Fits the initial state of an adaptive bit to the bit's decisions in many chunks.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct Start {
   int step, seen;
 };
 
-// Returns the initial state with which the decisions of all chunks cost the fewest bits. Treats a
-// bit that has seen n decisions as a beta prior of n + 1/2 decisions. If `chunks` is empty, returns
-// the state in which both values are equally likely.
+// Returns the initial state for which the decisions of all chunks need the fewest bits. A state
+// that has seen n decisions counts as a beta prior of n + 1/2 decisions. If `chunks` is empty,
+// returns the state in which both values are equally likely.
 Start fit_start(const std::vector<BitCounts>& chunks);
 
 }  // namespace vitrine::training

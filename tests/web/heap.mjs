@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the heap of the WebAssembly module. Blocks are aligned, do not overlap and keep their bytes. Requests that are
-// too large fail. Repeating the same requests does not grow the memory.
+// Tests the heap of the WebAssembly module. Blocks must be aligned, must not overlap and must keep
+// their bytes. Requests that are too large must fail. Repeating the same requests must not grow the
+// memory.
 // node heap.mjs DECODER.wasm
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -27,7 +28,7 @@ function give(taken) {
   release(taken.at);
 }
 
-// Allocates and releases blocks with sizes of all orders of magnitude, because most blocks of a decoder are small.
+// Allocates and releases blocks of all orders of magnitude. Most blocks are small, as in a decoder.
 function churn() {
   state = 1;
   const held = [];
@@ -43,7 +44,8 @@ const grown = memory.buffer.byteLength;
 for (let round = 0; round < 5; ++round) churn();
 assert.equal(memory.buffer.byteLength, grown, "the same again takes more memory");
 
-// All released blocks must have been joined, so that one large block fits without new memory.
+// Allocates one large block, which fits without new memory only if all released blocks have been
+// joined.
 give(take(Math.floor(0.75 * grown), 7));
 assert.equal(memory.buffer.byteLength, grown, "what lies side by side was not joined");
 

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that the native decoder and WebAssembly produce identical bytes: builds every model with both placements, and
-// compares all states from the base mesh to full resolution.
-// node native_equal.mjs VITRINE STATE_HASH DECODER.wasm MODELS GOLDEN
+// Checks that the native decoder and WebAssembly produce identical bytes. Builds every model with
+// both placement rules, and compares all states from the base mesh to full resolution. node
+// native_equal.mjs VITRINE STATE_HASH DECODER.wasm MODELS GOLDEN
 import { execFile } from "node:child_process";
 import { createHash } from "node:crypto";
 import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
+import { writeStripedBall } from "../e2e/models.mjs";
 import { loadCore, openFile } from "./support/core.mjs";
 
 const run = promisify(execFile);
 const [vitrine, stateHash, wasm, models, golden] = process.argv.slice(2);
 const core = await loadCore(wasm);
 
-/** A decoder that also returns lattice coordinates and colours as stored in the file, which pages do not need. */
+/** A decoder that also returns lattice coordinates and colours as stored in the file. Pages do not need them. */
 class Exact extends core.Decoder {
   get lattice() {
     return this.#ofVertices("lattice_positions", 12);
@@ -24,8 +25,8 @@ class Exact extends core.Decoder {
   }
 
   /**
-   * Returns the module's array named `array`, with `size` bytes per vertex. Joins the pieces in which the module
-   * returns it.
+   * Returns the module's array named `array`, with `size` bytes per vertex. The module returns the
+   * array in pieces, which are joined here.
    */
   #ofVertices(array, size) {
     const { wasm, model } = this, pieces = [];
@@ -40,14 +41,15 @@ class Exact extends core.Decoder {
 function state(decoder, { attributes }) {
   const shown = decoder.surface();
   const hash = createHash("sha256");
-  for (const array of [decoder.lattice, shown.indices, attributes.length > 0 && decoder.colours, shown.positions, shown.normals]) {
+  const colours = attributes.length > 0 && decoder.colours;
+  for (const array of [decoder.lattice, shown.indices, colours, shown.positions, shown.normals, shown.coordinates]) {
     if (array) hash.update(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
   }
   return `${shown.triangles} ${hash.digest("hex")}`;
 }
 
-// Throws unless the bounding box of the base mesh is centred at the surface's origin, so that a page shows it in the
-// middle.
+// Throws unless the bounding box of the base mesh is centred at the surface's origin. A page relies
+// on this to show the model in the middle.
 function checkCentred({ positions }) {
   for (const axis of [0, 1, 2]) {
     const along = positions.filter((_, i) => i % 3 === axis);
@@ -74,7 +76,7 @@ async function inWasm(path) {
 
 async function buildAndCompare(model, placement, folder) {
   const pmesh = join(folder, "model.pmesh");
-  await run(vitrine, ["build", model, "-o", pmesh, "--bits", "12", "--placement", placement]);
+  await run(vitrine, ["build", model, "--force", "-o", pmesh, "--bits", "12", "--placement", placement]);
   return compare(pmesh, `${model}, ${placement}`);
 }
 
@@ -92,13 +94,16 @@ const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
 try {
   const files = (await readdir(models)).filter((name) => /\.(ply|obj|stl|off|glb)$/.test(name)).sort();
   if (files.length === 0) throw new Error(`there is no model in ${models}`);
+  const ball = join(folder, "textured.glb");
+  await writeStripedBall(ball, { around: 64, up: 48 });
   let equal = true;
-  for (const file of files) {
+  for (const file of [...files.map((name) => join(models, name)), ball]) {
     for (const placement of ["midpoint", "pyramid"]) {
-      equal = (await buildAndCompare(join(models, file), placement, folder)) && equal;
+      equal = (await buildAndCompare(file, placement, folder)) && equal;
     }
   }
-  // The golden files are compared, too, because they have several regions, which small sample scans do not have.
+  // Also compares the golden files, because they have several regions. Small sample scans have only
+  // one.
   for (const file of (await readdir(golden)).filter((name) => name.endsWith(".pmesh")).sort()) {
     equal = (await compare(join(golden, file), file)) && equal;
   }

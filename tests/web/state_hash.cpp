@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// state-hash FILE.pmesh: applies all chunks in the planner's order, natively but with the browser's
-// model class (BrowserModel). Prints the number of faces and the SHA-256 of each state: lattice
-// positions, faces, colours, and displayed positions and normals. tests/web/native_equal.mjs
-// compares these lines with those from WebAssembly.
+// state-hash FILE.pmesh: applies all chunks in the planner's order, with the native build of the
+// browser's model class (BrowserModel). Prints the number of faces and the SHA-256 of each state.
+// The hash covers lattice positions, faces, colours, displayed positions, normals and texture
+// coordinates.
+// tests/web/native_equal.mjs compares these lines with those from WebAssembly.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -25,18 +26,19 @@ void append(Bytes& out, std::span<const T> values) {
 }
 
 void print_state(BrowserModel& model) {
-  Bytes lattice, faces, colours, positions, normals;
+  Bytes lattice, faces, colours, positions, normals, coordinates;
   model.display();
   while (model.next_vertices() > 0) {
     append<Vec3i>(lattice, model.lattice_positions());
     append<Colour>(colours, model.attributes().colours);
     append<std::array<float, 3>>(positions, model.positions());
     append<std::array<std::int16_t, 4>>(normals, model.normals());
+    append<std::array<float, 2>>(coordinates, model.coordinates());
   }
   while (model.next_faces() > 0)
     append<Triangle>(faces, model.faces());
   Bytes state;
-  for (const Bytes& part : {lattice, faces, colours, positions, normals})
+  for (const Bytes& part : {lattice, faces, colours, positions, normals, coordinates})
     state.insert(state.end(), part.begin(), part.end());
   std::printf("%u %s\n", model.refiner().face_count(), to_hex(sha256(state)).c_str());
 }
@@ -50,7 +52,9 @@ Expected<void> replay(std::span<const std::uint8_t> file) {
   if (auto fits = model->check_base(base_bytes); !fits) return fits;
   auto base = decode_base(base_bytes, manifest);
   if (!base) return tl::unexpected(base.error());
-  if (auto started = model->start(std::move(*base)); !started) return started;
+  const TextureInfo& texture = manifest.texture;
+  const auto atlas = file.subspan(texture.atlas_offset, texture.atlas_length);
+  if (auto started = model->start(std::move(*base), atlas); !started) return started;
   print_state(*model);
   constexpr std::uint32_t kLevel = 3;
   if (auto wanted = model->want(kLevel, 1e9); !wanted) return tl::unexpected(wanted.error());

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder and planner as a WebAssembly module: a C ABI over Refiner and Planner. The caller
-// (web/src/core/decoder.ts) copies bytes in with `allocate` and reads arrays through pointers,
-// which are valid until the next call on the same model. Sizes that may exceed 2^32 are doubles.
+// The C interface of the WebAssembly module: functions over Refiner and Planner. The caller
+// (web/src/core/decoder.ts) copies bytes in with `allocate` and reads arrays through pointers. A
+// pointer is valid until the next call for the same model. Sizes that may exceed 2^32 are doubles.
 // Every function is safe on hostile bytes. A function that can fail returns 0 or -1 on failure, and
-// `error_text` then gives the reason.
+// `error_text` then returns the reason.
 #include <algorithm>
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
 
+#include "codec/base/base_decoder.h"
 #include "codec/wasm/browser_model.h"
 
 #define VITRINE_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
@@ -44,8 +46,8 @@ VITRINE_EXPORT(error_text) const char* error_text() {
   return last_error().c_str();
 }
 
-// Returns the length of the header, or -1 on failure. `data` holds at least the first kHeaderPrefix
-// bytes of the file.
+// Returns the length of the header in bytes, or -1 on failure. `data` must hold at least the first
+// kHeaderPrefix bytes of the file.
 VITRINE_EXPORT(header_length) double header_length(const std::uint8_t* data, std::uint32_t size) {
   auto length = vitrine::header_bytes(bytes_at(data, size));
   return succeeded(length) ? static_cast<double>(*length) : -1;
@@ -56,7 +58,7 @@ VITRINE_EXPORT(model_open) BrowserModel* model_open(const std::uint8_t* data, st
   return succeeded(model) ? model->release() : nullptr;
 }
 
-// Returns the manifest as numbers. See BrowserModel::summary() for the layout.
+// Returns the manifest as numbers. BrowserModel::summary() describes the layout.
 VITRINE_EXPORT(summary) const double* summary(BrowserModel* model) {
   return model->summary().data();
 }
@@ -67,11 +69,24 @@ VITRINE_EXPORT(unit) const char* unit(BrowserModel* model) {
   return model->manifest().unit.c_str();
 }
 
-// Returns the SHA-256 of a chunk (32 bytes), or null if there is no such chunk.
+// Returns the SHA-256 of a chunk (32 bytes), or null if the chunk does not exist.
 VITRINE_EXPORT(chunk_hash)
 const std::uint8_t* chunk_hash(BrowserModel* model, std::uint32_t chunk) {
   const auto& chunks = model->manifest().chunks;
   return chunk < chunks.size() ? chunks[chunk].sha256.data() : nullptr;
+}
+
+// Checks the SHA-256 of a picture. Returns 0 if the picture was damaged in transit.
+VITRINE_EXPORT(check_picture)
+int check_picture(BrowserModel* model, std::uint32_t picture, const std::uint8_t* data,
+                  std::uint32_t size) {
+  return succeeded(model->check_picture(picture, bytes_at(data, size)));
+}
+// Returns the SHA-256 of a picture (32 bytes), or null if the picture does not exist.
+VITRINE_EXPORT(picture_hash)
+const std::uint8_t* picture_hash(BrowserModel* model, std::uint32_t picture) {
+  const auto& pictures = model->manifest().texture.pictures;
+  return picture < pictures.size() ? pictures[picture].sha256.data() : nullptr;
 }
 
 VITRINE_EXPORT(check_base)
@@ -79,35 +94,31 @@ int check_base(BrowserModel* model, const std::uint8_t* data, std::uint32_t size
   return succeeded(model->check_base(bytes_at(data, size)));
 }
 
-// Starts at the base mesh. `positions` holds 3 lattice coordinates per vertex and `faces` 3 indices
-// per face. `attributes` holds 3 integers per vertex for the model's first attribute, then the same
-// for the next attribute, and so on.
-VITRINE_EXPORT(start)
-int start(BrowserModel* model, const vitrine::Vec3i* positions, std::uint32_t vertices,
-          const vitrine::Triangle* faces, std::uint32_t face_count,
-          const vitrine::Vec3i* attributes) {
-  vitrine::BaseMesh base;
-  base.positions = {positions, positions + vertices};
-  base.faces = {faces, faces + face_count};
-  const auto& semantics = model->manifest().attributes;
-  base.attributes.resize(semantics.size());
-  for (std::size_t i = 0; i < semantics.size(); ++i, attributes += vertices) {
-    base.attributes[i].semantic = semantics[i];
-    base.attributes[i].values = {attributes, attributes + vertices};
-  }
-  return succeeded(model->start(std::move(base)));
+VITRINE_EXPORT(check_atlas)
+int check_atlas(BrowserModel* model, const std::uint8_t* data, std::uint32_t size) {
+  return succeeded(model->check_atlas(bytes_at(data, size)));
 }
 
-// Sets the detail target. `kind` is 0 for triangles, 1 for bytes, 2 for an error in model units, 3
-// for a level. Returns 1 if the surface was reset to the base mesh, 0 if refinement continues from
-// the current state, or -1 on failure.
+// Starts at the base mesh, whose SHA-256 must have been checked. `base` holds its Draco buffer and
+// `atlas` its coded atlas, whose size is 0 if the model has no texture.
+VITRINE_EXPORT(start)
+int start(BrowserModel* model, const std::uint8_t* base, std::uint32_t base_size,
+          const std::uint8_t* atlas, std::uint32_t atlas_size) {
+  auto decoded = vitrine::decode_base(bytes_at(base, base_size), model->manifest());
+  return succeeded(decoded) &&
+         succeeded(model->start(std::move(*decoded), bytes_at(atlas, atlas_size)));
+}
+
+// Sets the detail target. `kind` is 0 for a number of triangles, 1 for a number of bytes, 2 for an
+// error in model units, 3 for a level. Returns 1 if the surface restarts from the base mesh, 0 if
+// refinement continues from the current state, or -1 on failure.
 VITRINE_EXPORT(want) int want(BrowserModel* model, std::uint32_t kind, double value) {
   auto restarted = model->want(kind, value);
   return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
 }
 
-// Sets a camera as the detail target. `numbers` holds 22 numbers: the members of View in order,
-// then the maximum number of triangles to hold. Returns the same values as want().
+// Sets a camera as the detail target. `numbers` holds 22 numbers: the members of View in their
+// order, then the maximum number of triangles. Returns the same values as want().
 VITRINE_EXPORT(want_view) int want_view(BrowserModel* model, const double* numbers) {
   vitrine::View view;
   std::copy_n(numbers, view.camera.size(), view.camera.begin());
@@ -131,22 +142,22 @@ VITRINE_EXPORT(next_chunk) int next_chunk(BrowserModel* model) {
   return model->next_chunk();
 }
 
-// Checks a chunk; call this before apply(). Returns 0 if the chunk was damaged in transit and
-// should be requested again.
+// Checks the SHA-256 of a chunk; call this before apply(). Returns 0 if the chunk was damaged in
+// transit; the caller should then request it again.
 VITRINE_EXPORT(check_chunk)
 int check_chunk(BrowserModel* model, std::uint32_t chunk, const std::uint8_t* data,
                 std::uint32_t size) {
   return succeeded(model->check_chunk(chunk, bytes_at(data, size)));
 }
 
-// Applies a chunk. After a failure, want() restarts from the base mesh.
+// Applies a chunk. Returns 0 on failure; the next want() then restarts from the base mesh.
 VITRINE_EXPORT(apply)
 int apply(BrowserModel* model, std::uint32_t chunk, const std::uint8_t* data, std::uint32_t size) {
   return succeeded(model->apply(chunk, bytes_at(data, size)));
 }
 
-// Undoes the splits that exceed the detail target. Call this once all chunks for the target are
-// applied.
+// Undoes the splits that exceed the detail target. Call this once all chunks for the target have
+// been applied.
 VITRINE_EXPORT(trim) void trim(BrowserModel* model) {
   model->trim();
 }
@@ -154,21 +165,22 @@ VITRINE_EXPORT(trim) void trim(BrowserModel* model) {
 VITRINE_EXPORT(bytes_held) double bytes_held(BrowserModel* model) {
   return model->bytes_held();
 }
+// Returns the number of displayed vertices.
 VITRINE_EXPORT(vertex_count) std::uint32_t vertex_count(BrowserModel* model) {
-  return model->refiner().vertex_count();
+  return model->displayed_vertices();
 }
-// Returns the vertex that the last applied chunk split to create `vertex`, or `vertex` itself if no
-// split of that chunk created it.
+// Returns the displayed vertex from which the last applied chunk made `vertex`. Returns `vertex`
+// itself if that chunk did not make it by a split.
 VITRINE_EXPORT(parent_of) std::uint32_t parent_of(BrowserModel* model, std::uint32_t vertex) {
-  return model->refiner().parent_of(vertex);
+  return model->parent_of(vertex);
 }
 VITRINE_EXPORT(face_count) std::uint32_t face_count(BrowserModel* model) {
   return model->refiner().face_count();
 }
 
-// The displayed surface is returned in pieces. Call display() first. Then each call of
-// next_vertices() or next_faces() fills the arrays below with the next vertices or faces. Both
-// functions return the number of vertices or faces in the arrays, or 0 at the end.
+// The displayed surface is returned in pieces. Call display() first. Each call of next_vertices()
+// or next_faces() then fills the arrays below with the next vertices or faces, and returns their
+// number, or 0 at the end.
 VITRINE_EXPORT(display) void display(BrowserModel* model) {
   model->display();
 }
@@ -178,16 +190,17 @@ VITRINE_EXPORT(next_vertices) std::uint32_t next_vertices(BrowserModel* model) {
 VITRINE_EXPORT(next_faces) std::uint32_t next_faces(BrowserModel* model) {
   return model->next_faces();
 }
-// 3 floats per vertex, in model units from the centre of the base mesh's bounding box (see
-// summary).
+// Returns 3 floats per vertex, in model units, relative to the centre of the base mesh's bounding
+// box (see summary).
 VITRINE_EXPORT(positions) const float* positions(BrowserModel* model) {
   return model->positions().data()->data();
 }
-// 4 signed 16-bit integers per vertex: the normal times 32767, then 0.
+// Returns 4 signed 16-bit integers per vertex: the three components of the unit normal times 32767,
+// then 0.
 VITRINE_EXPORT(normals) const std::int16_t* normals(BrowserModel* model) {
   return model->normals().data()->data();
 }
-// The values of the model's i-th attribute. A colour is 3 sRGB bytes per vertex.
+// Returns the values of attribute i of the model. A colour has 3 sRGB bytes per vertex.
 VITRINE_EXPORT(attribute_values)
 const void* attribute_values(BrowserModel* model, std::uint32_t i) {
   const void* values = nullptr;
@@ -196,11 +209,16 @@ const void* attribute_values(BrowserModel* model, std::uint32_t i) {
   });
   return values;
 }
-// 3 integers per vertex: its exact lattice coordinates.
+// Returns 3 integers per vertex: the exact lattice coordinates.
 VITRINE_EXPORT(lattice_positions) const std::int32_t* lattice_positions(BrowserModel* model) {
   return &model->lattice_positions().data()->x;
 }
-// 3 indices per surface face.
+// Returns 2 floats per vertex: the texture coordinates (see BrowserModel::coordinates()). Returns
+// null if the model has no texture.
+VITRINE_EXPORT(texture_coordinates) const float* texture_coordinates(BrowserModel* model) {
+  return model->coordinates().empty() ? nullptr : model->coordinates().data()->data();
+}
+// Returns 3 vertex indices per real face.
 VITRINE_EXPORT(indices) const std::uint32_t* indices(BrowserModel* model) {
   return model->faces().data()->data();
 }

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// A heap that replaces the one of wasi-libc, whose code is ten times as large. It uses best fit and
-// merges adjacent free blocks. Memory grows by at least a sixteenth, because a browser collects
-// garbage each time memory grows.
+// A heap that replaces that of wasi-libc, which has ten times as much code. It uses best fit and
+// merges adjacent free blocks. Memory grows by at least a sixteenth at a time, because browsers
+// collect garbage each time memory grows.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
 
-extern "C" char __heap_base;  // set by the linker: the first byte after data and stack
+extern "C" char __heap_base;  // from the linker: first byte after data and stack
 
 namespace {
 
 constexpr std::size_t kPage = 65536;
 constexpr std::size_t kShare = 16;
-// Alignment of allocations, in bytes. Block sizes are multiples of it.
+// Alignment of allocations, in bytes. Block sizes are multiples of kUnit.
 constexpr std::size_t kUnit = 16;
 constexpr std::size_t kMost = std::size_t{1} << 31;
 
 struct Block {
-  std::size_t size_before;  // size of the previous block in memory
+  std::size_t size_before;  // size of the preceding block in memory
   // Size in bytes, including both size members. The lowest bit is set while the block is in use.
   std::size_t size;
-  // In a block in use, the allocation begins at `next`. In a free block, `next` and `last` are
-  // links of the free list.
+  // If the block is in use, the allocation begins at `next`. If it is free, `next` and `last` are
+  // its links in the free list.
   Block* next;
   Block* last;
 
@@ -34,14 +34,14 @@ struct Block {
 constexpr std::size_t kHeader = offsetof(Block, next);
 
 Block free_blocks{0, 0, &free_blocks, &free_blocks};
-Block* end = nullptr;  // the header after the last block: an empty block marked as in use
+Block* end = nullptr;  // header behind the last block: an empty block marked as in use
 
 void unlink(Block* block) {
   block->last->next = block->next;
   block->next->last = block->last;
 }
 
-// Adds a free block of `size` bytes at `block` to the free list. The adjacent blocks must be in
+// Adds a free block of `size` bytes at `block` to the free list. Both adjacent blocks must be in
 // use.
 void link(Block* block, std::size_t size) {
   block->size = block->at(size)->size_before = size;
@@ -65,7 +65,7 @@ bool add_pages(std::size_t count) {
 bool grow(std::size_t size) {
   const std::size_t there = __builtin_wasm_memory_size(0), pages = size / kPage + 1;
   if (!add_pages(std::max(pages, there / kShare)) && !add_pages(pages)) return false;
-  // A sentinel before the first block is marked as in use, so merging stops there.
+  // A sentinel before the first block is marked as in use, so that merging stops there.
   if (end == nullptr) {
     const auto base = (reinterpret_cast<std::uintptr_t>(&__heap_base) + kUnit - 1) & -kUnit;
     auto* const front = reinterpret_cast<Block*>(base + kHeader);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory functions that compile to WebAssembly instructions. They replace the loops of wasi-libc.
+// Memory functions that compile to single WebAssembly instructions. They replace the loops of
+// wasi-libc.
 #include <cstring>
 
 extern "C" {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tangent function that replaces the one of wasi-libc, whose reduction of huge angles has more
-// code than the whole planner. The argument is half a field of view, which is less than a right
-// angle. In that range Lambert's continued fraction, x / (1 - x^2 / (3 - x^2 / (5 - ...))), has
-// full precision after thirteen terms.
+// A tangent function that replaces that of wasi-libc, which reduces huge angles with more code than
+// the whole planner has. The argument is half a field of view, so it is less than a right angle.
+// For such arguments, Lambert's continued fraction, x / (1 - x^2 / (3 - x^2 / (5 - ...))), has full
+// precision after thirteen terms.
 #include <cmath>
 
 extern "C" double tan(double x) {

@@ -12,6 +12,10 @@ std::string ModelUrl::authority() const {
   return fmt::format("{}{}{}:{}", v6 ? "[" : "", host, v6 ? "]" : "", port);
 }
 
+std::string ModelUrl::resource() const {
+  return target.substr(0, target.size() - std::string_view("/stream").size());
+}
+
 Expected<ModelUrl> parse_model_url(std::string_view url) {
   // std::regex recurses: a longer text could overflow the stack.
   constexpr std::size_t kLongest = 2048;

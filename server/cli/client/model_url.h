@@ -17,6 +17,7 @@ struct ModelUrl {
   bool is_encrypted = false;  // whether the URL begins with https
 
   std::string authority() const;  // host and port for the Host field
+  std::string resource() const;   // the path of the model's API resource
 };
 
 // Parses the URL of a model's page or of its API resource. Any path prefix is allowed. Fails with

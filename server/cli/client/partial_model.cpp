@@ -46,19 +46,26 @@ Expected<void> PartialModel::take_up() {
   const auto header = read(0, *length);
   const auto manifest = header ? parse_header(*header) : tl::unexpected(header.error());
   if (!manifest || manifest->head_bytes() > kMaxHead) return {};
-  const auto base = read(manifest->base_offset, manifest->base_length);
-  if (!base || sha256(*base) != manifest->base_sha256) return {};
+  const auto head = read(0, manifest->head_bytes());
+  if (!head || !is_intact_head(*manifest, *head)) return {};
   manifest_ = *manifest;
-  held_.resize(manifest_->chunks.size());
-  for (std::size_t i = 0; i < held_.size(); ++i)
-    held_[i] = read_is_whole(i);
+  look_for_parts();
   return {};
 }
 
-bool PartialModel::read_is_whole(std::size_t chunk) const {
-  const ChunkInfo& info = manifest_->chunks[chunk];
-  const auto bytes = read(info.offset, info.length);
-  return bytes && sha256(*bytes) == info.sha256;
+// Finds out which chunks and pictures the file contains.
+void PartialModel::look_for_parts() {
+  held_.clear();
+  held_pictures_.clear();
+  for (const ChunkInfo& chunk : manifest_->chunks)
+    held_.push_back(read_is_whole({chunk.sha256, chunk.offset, chunk.length}));
+  for (const PictureInfo& picture : manifest_->texture.pictures)
+    held_pictures_.push_back(read_is_whole({picture.sha256, picture.offset, picture.length}));
+}
+
+bool PartialModel::read_is_whole(const FileBlock& block) const {
+  const auto bytes = read(block.offset, block.length);
+  return bytes && sha256(*bytes) == block.sha256;
 }
 
 std::vector<ChunkRange> PartialModel::held_ranges() const {
@@ -79,6 +86,10 @@ std::uint64_t PartialModel::bytes() const {
   std::uint64_t bytes = manifest_->head_bytes();
   for (std::size_t i = 0; i < held_.size(); ++i) {
     if (held_[i]) bytes += manifest_->chunks[i].length;
+  }
+  const TextureInfo& texture = manifest_->texture;
+  for (std::size_t i = texture.in_head; i < held_pictures_.size(); ++i) {
+    if (held_pictures_[i]) bytes += texture.pictures[i].length;
   }
   return bytes;
 }
@@ -134,11 +145,7 @@ Expected<void> PartialModel::complete(const Key& key, const Bytes& bytes) {
 Expected<void> PartialModel::set_head(const Bytes& head) {
   auto manifest = parse_header(head);
   if (!manifest) return wrong("sends a malformed head");
-  const std::span<const std::uint8_t> all = head;
-  if (manifest->head_bytes() != head.size() ||
-      sha256(all.subspan(manifest->base_offset)) != manifest->base_sha256) {
-    return wrong("sends a damaged head");
-  }
+  if (!is_intact_head(*manifest, head)) return wrong("sends a damaged head");
   // If the file already has a head, it is the same one: the file's name contains the model's hash.
   if (manifest_) return {};
   if (::ftruncate(file_.get(), 0) != 0 ||
@@ -147,8 +154,27 @@ Expected<void> PartialModel::set_head(const Bytes& head) {
   }
   if (auto written = write(0, head); !written) return written;
   held_.assign(manifest->chunks.size(), false);
+  held_pictures_.assign(manifest->texture.pictures.size(), false);
+  std::fill_n(held_pictures_.begin(), manifest->texture.in_head, true);
   manifest_ = std::move(*manifest);
   return {};
+}
+
+Expected<void> PartialModel::add_picture(std::size_t i, std::span<const std::uint8_t> bytes) {
+  const PictureInfo& picture = manifest_->texture.pictures[i];
+  if (sha256(bytes) != picture.sha256) return wrong("sends a damaged picture (SHA-256 differs)");
+  if (auto written = write(picture.offset, bytes); !written) return written;
+  held_pictures_[i] = true;
+  return {};
+}
+
+bool PartialModel::holds(const OptionalBlock& block) const {
+  return read_is_whole({block.sha256, block.offset, block.length});
+}
+
+Expected<void> PartialModel::add(const OptionalBlock& block, std::span<const std::uint8_t> bytes) {
+  if (sha256(bytes) == block.sha256) return write(block.offset, bytes);
+  return wrong("sends a damaged original (SHA-256 differs)");
 }
 
 Expected<void> PartialModel::write(std::uint64_t offset, std::span<const std::uint8_t> bytes) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A model that is being fetched. It is kept in a .pmesh file of full length in which missing chunks
-// are holes. Hashes show which chunks the file contains, so a fetch can continue after any
-// interruption.
+// and pictures are holes. Hashes show which of them the file contains, so a fetch can continue
+// after any interruption.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/files/file_descriptor.h"
-#include "codec/format/manifest.h"
+#include "codec/format/file_blocks.h"
 #include "server/stream/message.h"
 #include "server/stream/slice.h"
 
@@ -27,8 +27,10 @@ class PartialModel {
   // Returns nullopt until the head has arrived.
   const std::optional<Manifest>& manifest() const { return manifest_; }
   bool holds(std::size_t chunk) const { return held_[chunk]; }
+  // Whether picture number `i` of the texture is complete.
+  bool holds_picture(std::size_t i) const { return held_pictures_[i]; }
   std::vector<ChunkRange> held_ranges() const;
-  std::uint64_t bytes() const;  // size of the head and of the complete chunks
+  std::uint64_t bytes() const;  // size of the head and of the complete chunks and pictures
   // Returns the finest level that is complete in all regions.
   std::uint32_t level() const;
 
@@ -36,6 +38,15 @@ class PartialModel {
   // model or comes out of order, or if the chunk's hash is wrong. Allocates at most the chunk's
   // length, or kMaxHead.
   Expected<void> add(const SliceHeader& header, std::span<const std::uint8_t> payload);
+
+  // Adds picture number `i` of the texture, from an untrusted server. Fails with kBadInput if its
+  // hash is wrong.
+  Expected<void> add_picture(std::size_t i, std::span<const std::uint8_t> bytes);
+
+  // Whether an optional block is complete. Reads it.
+  bool holds(const OptionalBlock& block) const;
+  // Adds an optional block, like add_picture().
+  Expected<void> add(const OptionalBlock& block, std::span<const std::uint8_t> bytes);
 
   // Discards incomplete chunks. The next connection sends them again from the start.
   void forget_parts() { parts_.clear(); }
@@ -56,14 +67,15 @@ class PartialModel {
   Expected<void> set_head(const Bytes& head);
   Expected<std::uint64_t> length_of(const SliceHeader& header) const;
   Expected<void> complete(const Key& key, const Bytes& bytes);
-  bool read_is_whole(std::size_t chunk) const;
+  void look_for_parts();
+  bool read_is_whole(const FileBlock& block) const;
   Expected<void> write(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   Expected<Bytes> read(std::uint64_t offset, std::uint64_t length) const;
 
   std::filesystem::path path_;
   FileDescriptor file_;
   std::optional<Manifest> manifest_;
-  std::vector<bool> held_;
+  std::vector<bool> held_, held_pictures_;
   std::map<Key, Bytes> parts_;  // received slices of incomplete chunks
 };
 

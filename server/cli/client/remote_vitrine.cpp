@@ -7,6 +7,8 @@
 #include <charconv>
 #include <thread>
 
+#include "server/cli/support/access_token.h"
+
 namespace vitrine::server::cli {
 namespace {
 
@@ -32,7 +34,7 @@ std::string words_of(const RemoteAnswer& answer, const std::string& origin) {
   }
   std::ranges::replace(text, ';', ',');
   const std::string step = answer.status == 401 || answer.status == 403
-                               ? "check --token"
+                               ? "check the token"
                                : fmt::format("request {}", problem.value("request_id", "-"));
   return fmt::format("{} answers {} ({}); {}", origin, answer.status, text, step);
 }
@@ -58,12 +60,12 @@ Expected<RemoteAnswer> with_retries(const Ask& ask) {
 tl::expected<RemoteVitrine, Fault> RemoteVitrine::of(const Arguments& arguments) {
   const std::string origin = origin_of(arguments.text("--server"));
   if (origin.empty()) return arguments.wrong_value("--server", "a URL, as https://museum.example");
-  if (!arguments.has("--token"))
-    return misused("--token is missing; give a token of the server, from vitrine token create");
-  const std::string token = arguments.text("--token");
-  const bool is_one_word = std::ranges::all_of(token, [](char c) { return c > 0x20 && c < 0x7F; });
-  if (token.empty() || !is_one_word) return arguments.wrong_value("--token", "a token's text");
-  return RemoteVitrine(origin, token);
+  const auto token = access_token(arguments);
+  if (!token) return tl::unexpected(token.error());
+  if (token->empty()) {
+    return misused("the token is missing; name its file by --token-file, or set VITRINE_TOKEN");
+  }
+  return RemoteVitrine(origin, *token);
 }
 
 Expected<RemoteAnswer> RemoteVitrine::send(const std::string& method, const std::string& path,

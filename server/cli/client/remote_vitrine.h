@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends requests to the remote Vitrine server that --server names, with the token of --token.
+// Sends requests to the remote Vitrine server that --server names, with the token of
+// access_token().
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,8 +14,8 @@ namespace vitrine::server::cli {
 
 class RemoteVitrine {
  public:
-  // Reads --server and --token. Returns a usage error if --server is not a URL, or if --token is
-  // missing or malformed.
+  // Reads --server and the token. Returns a usage error if --server is not a URL, or if the token
+  // is missing or malformed.
   static tl::expected<RemoteVitrine, Fault> of(const Arguments& arguments);
 
   // Returns a text such as "https://host:port".

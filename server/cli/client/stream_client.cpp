@@ -151,12 +151,11 @@ class Fetching {
 
   asio::awaitable<Expected<End>> converse(WebSocket& socket) {
     is_asked_ = is_done_ = false;
+    taken_ = 0;
+    if (model_) model_->forget_parts();
     while (!is_done_) {
       const WebSocket::Message message = co_await socket.read();
-      if (message.error) {
-        if (model_) model_->forget_parts();
-        co_return lost(message.error.message());
-      }
+      if (message.error) co_return lost(message.error.message());
       const auto taken =
           message.opcode == Opcode::kText ? take_text(message.span()) : take_slice(message.span());
       if (!taken) co_return tl::unexpected(taken.error());
@@ -192,8 +191,8 @@ class Fetching {
     return {};
   }
 
-  // Opens the part file of the model. The file's name contains the hash of the model's file, so
-  // that two versions never mix.
+  // Opens the part file of the model. The name of the part file contains the hash of the model's
+  // file, so that two versions of a model never mix.
   Expected<void> start(const ModelMessage& opened) {
     if (model_) {
       if (opened.sha256 == sha256_) return {};
@@ -231,8 +230,8 @@ class Fetching {
     co_return true;
   }
 
-  // Returns the detail target to request. Subtracts the time that has passed from a target in
-  // seconds.
+  // Returns the detail target to request. If the target is in seconds, subtracts the time that has
+  // passed.
   DetailTarget target() const {
     if (!options_.target) return Want(WantLevel{UINT32_MAX});
     const auto* timed = std::get_if<WantSeconds>(&*options_.target);

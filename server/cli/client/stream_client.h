@@ -27,8 +27,8 @@ struct FetchOptions {
 
 struct Fetched {
   PartialModel model;
-  double seconds = 0;                     // from the first connection until the request was met
-  std::uint64_t received = 0;             // payload bytes received in this run
+  double seconds = 0;          // duration from the first connection until the request was met
+  std::uint64_t received = 0;  // payload bytes received in this run
   std::optional<PromiseMessage> promise;  // the newest promise of the server
 };
 

@@ -18,6 +18,7 @@
 #include "server/cli/support/input.h"
 #include "server/cli/support/isolation.h"
 #include "server/cli/support/levels.h"
+#include "server/cli/support/output.h"
 #include "server/cli/support/reading.h"
 
 namespace vitrine::server::cli {
@@ -99,11 +100,13 @@ CommandOutcome check_outputs(const Arguments& arguments) {
   std::vector<std::string> outputs = {arguments.text("-o")};
   if (arguments.has("--report")) outputs.push_back(page);
   for (const std::string& out : outputs) {
-    if (const auto writable = check_writable(out); !writable) return failed(writable.error());
     if (const auto distinct = check_distinct(path, out); !distinct) return failed(distinct.error());
+    if (const auto free = check_output_or_stdout(arguments, out); !free)
+      return failed(free.error());
   }
+  if (page == kStandardStream) return misused("--report cannot be standard output; name a file");
   using std::filesystem::weakly_canonical;
-  std::error_code unknown;  // ignored, since writing the outputs then fails
+  std::error_code unknown;  // ignored: writing the outputs will report it
   if (outputs.size() == 2 &&
       weakly_canonical(outputs[0], unknown) == weakly_canonical(outputs[1], unknown)) {
     return misused("-o and --report name the same file; choose another name for the report");
@@ -111,20 +114,21 @@ CommandOutcome check_outputs(const Arguments& arguments) {
   return {};
 }
 
-// Share of the whole time that the build takes if a report is also made.
+// If a report is also made, the build takes this share of the whole time.
 constexpr double kBuilt = 0.25;
 
-// Returns a progress report for one part of the work. It reports the part's progress 0..1 to
-// `whole` as `from`..`to`.
+// Returns a progress report for one part of the work. It converts the part's progress from 0..1 to
+// `from`..`to`, and passes the result to `whole`.
 ProgressReport part_of(const ProgressReport& whole, double from, double to) {
   return [&whole, from, to](std::string_view stage, double done) {
     whole(stage, std::lerp(from, to, done));
   };
 }
 
-Expected<Product> make(std::span<const std::uint8_t> input, const BuildOptions& options,
-                       const std::optional<std::string>& report_of,
+Expected<Product> make(std::span<const std::uint8_t> input, const ImportFormat* format,
+                       const BuildOptions& options, const std::optional<std::string>& report_of,
                        const ProgressReport& progress) {
+  if (auto ok = check_format(input, format); !ok) return tl::unexpected(ok.error());
   const double built = report_of ? kBuilt : 1;
   auto result = build_model(input, options, part_of(progress, 0, built));
   if (!result) return tl::unexpected(result.error());
@@ -143,8 +147,7 @@ Expected<Product> make(std::span<const std::uint8_t> input, const BuildOptions& 
 }
 
 CommandOutcome write_outputs(const Arguments& arguments, const Product& product) {
-  const auto written = write_file_atomically(arguments.text("-o"), product.file);
-  if (!written) return failed(written.error());
+  if (auto written = write_output(arguments.text("-o"), product.file); !written) return written;
   if (!arguments.has("--report")) return {};
   const auto reported = write_file_atomically(
       arguments.text("--report"),
@@ -154,12 +157,24 @@ CommandOutcome write_outputs(const Arguments& arguments, const Product& product)
       fmt::format("{} ('{}' is written)", reported.error().message, arguments.text("-o")));
 }
 
-CommandOutcome build(const Arguments& arguments) {
+CommandOutcome check_name(const Arguments& arguments) {
   if (!arguments.has("-o")) return misused("-o is missing; name the output file");
-  if (!arguments.text("-o").ends_with(".pmesh")) {
-    return misused(
-        "the output's name must end in .pmesh; vitrine decode then writes meshes from that file");
-  }
+  const std::string out = arguments.text("-o");
+  if (out == kStandardStream || out.ends_with(".pmesh")) return {};
+  return misused(
+      "the output's name must end in .pmesh; vitrine decode then writes meshes from that file");
+}
+
+// Returns the folder of the file for data that exceed the memory.
+std::filesystem::path spill_folder(const std::string& out) {
+  std::error_code unknown;  // ignored: the path is then empty, and all data stay in memory
+  return out == kStandardStream ? std::filesystem::temp_directory_path(unknown) : folder_of(out);
+}
+
+CommandOutcome build(const Arguments& arguments) {
+  if (auto ok = check_name(arguments); !ok) return ok;
+  const auto format = stated_format(arguments);
+  if (!format) return tl::unexpected(format.error());
   auto options = read_options(arguments);
   if (!options) return tl::unexpected(options.error());
   const std::string path = arguments.operand(0), out = arguments.text("-o");
@@ -168,14 +183,16 @@ CommandOutcome build(const Arguments& arguments) {
   if (!file) return failed(file.error());
   const CompanionFiles companions(path, file->bytes());
   options->reading.beside = companions.contents();
+  options->reading.name = path;
 
   std::optional<std::string> report_of;
-  if (arguments.has("--report")) report_of = std::filesystem::path(path).filename().string();
-  const SpillOptions spill{.folder = folder_of(out), .input = file->bytes()};
+  if (arguments.has("--report"))
+    report_of = std::filesystem::path(input_name(path)).filename().string();
+  const SpillOptions spill{.folder = spill_folder(out), .input = file->bytes()};
   auto product = isolate(
       path,
       [&](const ProgressReport& progress) {
-        return make(file->bytes(), *options, report_of, progress);
+        return make(file->bytes(), *format, *options, report_of, progress);
       },
       spill);
   if (!product) return tl::unexpected(product.error());
@@ -183,15 +200,16 @@ CommandOutcome build(const Arguments& arguments) {
   if (auto written = write_outputs(arguments, *product); !written) return written;
   json& seconds = product->report["seconds"]["write"];
   seconds = seconds.get<double>() + std::chrono::duration<double>(Clock::now() - start).count();
-  if (arguments.has("--json")) return print_json(product->report);
+  if (arguments.has("--json")) return print_json(product->report, result_stream(out));
   const auto manifest = parse_header(product->file);
   if (!manifest) return failed(manifest.error());
-  return print(as_text(product->report, *manifest, out));
+  return print(as_text(product->report, *manifest, out), result_stream(out));
 }
 
 constexpr std::string_view kBuildOperands[] = {"IN"};
 constexpr Flag kBuildFlags[] = {
-    {"-o", "OUT.pmesh", "model file to write (required)"},
+    {"-o", "OUT.pmesh", "model file to write (required); - is standard output"},
+    kFormatFlag,
     kUnitFlag,
     kUpFlag,
     {"--bits", "auto|10..16",
@@ -206,17 +224,28 @@ constexpr Flag kBuildFlags[] = {
     {"--threads", "N", "number of threads (default: one per core)"},
     {"--report", "OUT.html",
      "also write a page with pictures, a plot of error against bytes, and all levels"},
+    kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 
 constexpr FixedText kBuildSummary =
-    concatenate("Builds a .pmesh file from a ", kImportFormatNames, " mesh.");
+    concatenate("Builds a .pmesh file from a ", kImportFormatNames,
+                " mesh, or from a package with one and its pictures (zip, tar or gzip).");
 
 }  // namespace
 
-const Command kBuild = {.name = "build",
-                        .summary = kBuildSummary,
-                        .operands = kBuildOperands,
-                        .flags = kBuildFlags,
-                        .run = build};
+const Command kBuild = {
+    .name = "build",
+    .summary = kBuildSummary,
+    .details =
+        "IN may be -, which is standard input. Files that IN names are beside "
+        "it, or in the current folder. With -o -, the result is printed to "
+        "standard error.",
+    .operands = kBuildOperands,
+    .flags = kBuildFlags,
+    .examples =
+        "vitrine build bust.ply -o bust.pmesh\nvitrine build scan.obj -o "
+        "scan.pmesh --unit mm --up z --report scan.html\nxz -dc bust.ply.xz | vitrine "
+        "build - -o - | ssh museum 'cat > bust.pmesh'",
+    .run = build};
 
 }  // namespace vitrine::server::cli

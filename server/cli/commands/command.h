@@ -15,12 +15,15 @@ struct Command {
   std::string_view summary;       // one sentence, for the list of commands
   std::string_view details = {};  // further sentences for --help
   std::span<const std::string_view> operands = {};
-  std::span<const Flag> flags;  // all flags but --help, which every command has
+  std::span<const Flag> flags;     // all flags but --help, which every command has
+  std::string_view examples = {};  // lines to type, for --help
   CommandOutcome (*run)(const Arguments& arguments);
 };
 
 extern const Command kBuild, kInfo, kDecode, kVerify, kMeasure, kPublish, kFetch, kCalibrate, kScan,
-    kReprocess, kMerge, kToken, kBackup, kRestore, kMigrate, kDoctor;
+    kReprocess, kFuse, kToken, kBackup, kRestore, kRepair, kMigrate, kDoctor, kCompletion;
+
+std::span<const Command* const> commands();  // in the order of the list that --help prints
 
 // Runs a whole command line, given without the program's name. Prints the error, if any, and
 // returns the exit code.

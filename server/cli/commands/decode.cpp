@@ -1,30 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <filesystem>
-
+#include "codec/build/exported_texture.h"
 #include "codec/build/open_model.h"
+#include "codec/build/originals.h"
 #include "codec/export/write_mesh.h"
-#include "codec/files/atomic_file.h"
 #include "server/cli/commands/command.h"
 #include "server/cli/support/console.h"
+#include "server/cli/support/exported_mesh.h"
 #include "server/cli/support/input.h"
 #include "server/cli/support/isolation.h"
+#include "server/cli/support/output.h"
 #include "server/cli/support/wants.h"
 
 namespace vitrine::server::cli {
 namespace {
 
-nlohmann::json describe(const Refiner& refiner, const TriangleMesh& mesh) {
+constexpr std::string_view kOutputFormat = "--format";
+
+// Returns the size in bytes of the file's head and all applied chunks together.
+std::uint64_t bytes_used(const Refiner& refiner) {
   std::uint64_t bytes = refiner.manifest().head_bytes();
   for (std::size_t i = 0; i < refiner.manifest().chunks.size(); ++i) {
     if (refiner.is_applied(i)) bytes += refiner.manifest().chunks[i].length;
   }
-  return {{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}, {"bytes", bytes}};
+  return bytes;
 }
 
+struct Export {
+  std::string out;
+  ExportKind kind;
+  std::optional<std::uint32_t> texture_side;  // pixels; see pictures_to_export()
+  ExportChoices choices;
+  bool has_originals;  // whether to write the originals instead of the display atlas
+};
+
 Expected<Product> decode_to(std::span<const std::uint8_t> pmesh, const std::optional<Want>& wanted,
-                            MeshFormat format, const ProgressReport& progress) {
+                            const Export& target, const ProgressReport& progress) {
   auto refiner = open_model(pmesh);
   if (!refiner) return tl::unexpected(refiner.error());
   const Manifest& manifest = refiner->manifest();
@@ -38,64 +50,141 @@ Expected<Product> decode_to(std::span<const std::uint8_t> pmesh, const std::opti
     return chunks(chunk);
   };
   if (auto ok = refine(*refiner, want, reader); !ok) return tl::unexpected(ok.error());
-  const TriangleMesh mesh = refiner->display_mesh();
-  auto file = write_mesh(mesh, format, manifest.unit);
-  if (!file) return tl::unexpected(file.error());
-  nlohmann::json report = describe(*refiner, mesh);
-  if (auto note = note_on_precision(mesh, format); !note.empty()) report["note"] = note;
-  return Product{std::move(report), std::move(*file)};
+  if (target.has_originals) {
+    auto product = exported_originals(*refiner, pmesh, target.out);
+    if (product) product->report["bytes"] = bytes_used(*refiner) + originals_bytes(manifest);
+    return product;
+  }
+  const auto pictures = pictures_to_export(manifest, refiner->face_count(), target.texture_side,
+                                           roles_in(target.kind.format));
+  auto product = exported_mesh(*refiner, pmesh, target.kind, target.out, pictures, target.choices);
+  if (product) product->report["bytes"] = bytes_used(*refiner);
+  return product;
+}
+
+// Checks that --originals, if given, fits the output's format and the other flags. The originals
+// are the source's own materials, texture coordinates and pictures (codec/build/originals.h).
+tl::expected<void, Fault> check_originals(const Arguments& arguments, ExportKind kind,
+                                          const std::optional<Want>& want) {
+  if (!arguments.has("--originals")) return {};
+  if (kind.format != MeshFormat::kGlb || kind.is_zip)
+    return misused("only .glb holds the originals; name such an output file");
+  if (arguments.has(kCompressionFlag.name))
+    return misused("the originals are kept to the bit; leave out --compression");
+  if (want || arguments.has(kTextureFlag.name)) {
+    return misused(
+        "the originals belong to the finest level; leave out --level, --triangles, --bytes, "
+        "--error and --texture");
+  }
+  return {};
+}
+
+// Returns the file name whose extension determines the kind of the output. For standard output, the
+// extension is the value of --format.
+tl::expected<std::string, Fault> name_of_output(const Arguments& arguments) {
+  if (!arguments.has("-o")) return misused("-o is missing; name the output file");
+  const std::string out = arguments.text("-o"), format = arguments.text(kOutputFormat);
+  if (out != kStandardStream) {
+    if (format.empty()) return out;
+    return misused("--format is for -o -; the name of another output chooses the format");
+  }
+  if (export_kind_of("mesh." + format)) return "mesh." + format;
+  return arguments.wrong_value(
+      kOutputFormat,
+      fmt::format("one of {},{}", std::string_view(kExportChoice), std::string_view(kZipChoice)));
+}
+
+// Writes the product to the file of -o, with its companions beside that file, or to standard
+// output.
+CommandOutcome write_product(const Arguments& arguments, Product& product) {
+  const std::string out = arguments.text("-o");
+  if (out != kStandardStream) {
+    if (auto written = write_export(arguments, out, product); !written)
+      return failed(written.error());
+    return {};
+  }
+  if (product.companions.empty()) return write_output(out, product.file);
+  return failed(
+      "the pictures of this mesh are files of their own, which standard output cannot hold; use "
+      "--format glb, a zip, or --texture 0");
 }
 
 CommandOutcome decode(const Arguments& arguments) {
-  if (!arguments.has("-o")) return misused("-o is missing; name the output file");
+  const auto name = name_of_output(arguments);
+  if (!name) return tl::unexpected(name.error());
   const std::string out = arguments.text("-o");
-  const auto format = format_of_extension(std::filesystem::path(out).extension().string());
-  if (!format)
-    return misused(fmt::format("cannot tell the output format from its name; use one of {}",
-                               std::string_view(kExportSuffixes)));
+  const auto kind = read_export_kind(*name);
+  if (!kind) return tl::unexpected(kind.error());
   const auto want = read_want(arguments);
   if (!want) return tl::unexpected(want.error());
-  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
+  const auto texture_side = read_texture_side(arguments);
+  if (!texture_side) return tl::unexpected(texture_side.error());
+  const auto choices = read_export_choices(arguments, kind->format);
+  if (!choices) return tl::unexpected(choices.error());
+  if (const auto fits = check_originals(arguments, *kind, *want); !fits)
+    return tl::unexpected(fits.error());
   if (const auto distinct = check_distinct(arguments.operand(0), out); !distinct)
     return failed(distinct.error());
+  if (const auto free = check_output_or_stdout(arguments, out); !free) return failed(free.error());
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
 
-  const auto product = isolate(path, [&](const ProgressReport& progress) {
-    return decode_to(file->bytes(), *want, *format, progress);
+  auto product = isolate(path, [&](const ProgressReport& progress) {
+    return decode_to(file->bytes(), *want,
+                     {.out = *name,
+                      .kind = *kind,
+                      .texture_side = *texture_side,
+                      .choices = *choices,
+                      .has_originals = arguments.has("--originals")},
+                     progress);
   });
   if (!product) return tl::unexpected(product.error());
-  if (auto written = write_file_atomically(out, product->file); !written) {
-    return failed(written.error());
-  }
+  if (auto written = write_product(arguments, *product); !written) return written;
   const auto& report = product->report;
-  if (arguments.has("--json")) return print_json(report);
-  return print(fmt::format(
-      "{}: {} faces, {} vertices from {} bytes", out, report["faces"].get<std::uint64_t>(),
-      report["vertices"].get<std::uint64_t>(), report["bytes"].get<std::uint64_t>()));
+  if (arguments.has("--json")) return print_json(report, result_stream(out));
+  return print(
+      fmt::format("{}: {} faces, {} vertices from {} bytes{}", out,
+                  report["faces"].get<std::uint64_t>(), report["vertices"].get<std::uint64_t>(),
+                  report["bytes"].get<std::uint64_t>(), companions_as_text(report)),
+      result_stream(out));
 }
 
 constexpr std::string_view kDecodeOperands[] = {"FILE.pmesh"};
 constexpr FixedText kDecodeOutput = concatenate("OUT.{", kExportChoice, "}");
+constexpr FixedText kDecodeFormats = concatenate(kExportChoice, ",", kZipChoice);
+constexpr FixedText kDecodeDetails = concatenate(
+    "The name of OUT chooses the format. FILE.pmesh may be -, which is standard input; -o - is "
+    "standard output, for which --format chooses, and the result is printed to standard error. "
+    "--level, --triangles, --bytes and --error exclude each "
+    "other; without any, the finest level is written. ",
+    kNoteOnCompanions);
 constexpr Flag kDecodeFlags[] = {
-    {"-o", kDecodeOutput, "mesh, in the model's unit; .glb, .wrl in metres (required)"},
+    {"-o", kDecodeOutput, "mesh file to write (required); - is standard output"},
+    {kOutputFormat, kDecodeFormats, "format of -o -"},
     {"--level", "L", "level of detail; 0 is the coarsest"},
     {"--triangles", "N", "finest mesh with at most N triangles"},
     {"--bytes", "B", "finest mesh in the first B bytes of the file"},
     {"--error", "E", "coarsest level within E of the original, in the model's unit"},
+    kTextureFlag,
+    kUnitInFileFlag,
+    kUpInFileFlag,
+    kCompressionFlag,
+    {"--originals", "",
+     "the source's materials, pictures and texture coordinates, to the bit; for .glb"},
+    kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace
 
-const Command kDecode = {
-    .name = "decode",
-    .summary = "Writes the mesh of a .pmesh file, at full or reduced detail.",
-    .details =
-        "The name of OUT chooses the format. --level, --triangles, --bytes and "
-        "--error exclude each other; without any, the finest level is written.",
-    .operands = kDecodeOperands,
-    .flags = kDecodeFlags,
-    .run = decode};
+const Command kDecode = {.name = "decode",
+                         .summary = "Writes the mesh of a .pmesh file, at full or reduced detail.",
+                         .details = kDecodeDetails,
+                         .operands = kDecodeOperands,
+                         .flags = kDecodeFlags,
+                         .examples =
+                             "vitrine decode bust.pmesh -o bust.glb\nvitrine decode bust.pmesh -o "
+                             "small.ply --triangles 20000",
+                         .run = decode};
 
 }  // namespace vitrine::server::cli

@@ -5,11 +5,14 @@
 
 #include "server/cli/commands/command.h"
 #include "server/cli/doctor/check_data.h"
+#include "server/cli/doctor/check_integrity.h"
 #include "server/cli/doctor/check_machine.h"
 #include "server/cli/doctor/check_server.h"
 #include "server/cli/doctor/check_services.h"
+#include "server/cli/support/access_token.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/place.h"
+#include "server/store/text.h"
 
 namespace vitrine::server::cli {
 namespace {
@@ -35,16 +38,20 @@ CommandOutcome show_json(const Findings& findings, bool well) {
 CommandOutcome show_lines(const Findings& findings) {
   std::string text;
   for (const Finding& finding : findings) {
-    text += fmt::format("{}{:<5} {:<12} {}{}{}", text.empty() ? "" : "\n", name_of(finding.verdict),
-                        finding.check, finding.detail, finding.advice.empty() ? "" : "; ",
-                        finding.advice);
+    if (!text.empty()) text += '\n';
+    // The server that is checked may have sent the detail.
+    text += as_plain_text(fmt::format("{:<5} {:<12} {}{}{}", name_of(finding.verdict),
+                                      finding.check, finding.detail,
+                                      finding.advice.empty() ? "" : "; ", finding.advice));
   }
   return print(text);
 }
 
 CommandOutcome examine(const Arguments& arguments) {
-  if (arguments.has("--token") && !arguments.has("--url"))
+  if (names_token(arguments) && !arguments.has("--url"))
     return misused("--token needs --url; name the server");
+  if (arguments.has("--scrub") && !arguments.has("--data"))
+    return misused("--scrub needs --data; name the installation");
   Findings findings = check_machine();
   const auto add = [&](const Findings& more) {
     findings.insert(findings.end(), more.begin(), more.end());
@@ -54,8 +61,13 @@ CommandOutcome examine(const Arguments& arguments) {
     if (!place) return failed(place.error());
     const bool is_in_folder = place->store.empty() && place->catalogue.empty();
     add(is_in_folder ? check_data(place->folder) : check_services(*place));
+    if (arguments.has("--scrub")) add(check_integrity(*place));
   }
-  if (arguments.has("--url")) add(check_server(arguments.text("--url"), arguments.text("--token")));
+  if (arguments.has("--url")) {
+    const auto token = access_token(arguments);
+    if (!token) return tl::unexpected(token.error());
+    add(check_server(arguments.text("--url"), *token));
+  }
   const auto failures = std::ranges::count(findings, Verdict::kFail, &Finding::verdict);
   const CommandOutcome shown =
       arguments.has("--json") ? show_json(findings, failures == 0) : show_lines(findings);
@@ -68,7 +80,10 @@ constexpr Flag kDoctorFlags[] = {
     {"--url", "URL", "address of the server for visitors, such as https://museum.example"},
     {"--token", "T",
      "with --url: access token of role viewer or higher, to check the scanners, too"},
+    kTokenFileFlag,
     {"--data", "DIR|FILE", "data folder on this machine, or configuration file of its daemon"},
+    {"--scrub", "",
+     "with --data: read all stored files and the whole catalogue, and check them for damage"},
     {"--json", "",
      "print the result as one JSON object: ok, and checks with verdict, check, detail and advice"}};
 

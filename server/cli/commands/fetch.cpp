@@ -4,15 +4,21 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <numeric>
 
+#include "codec/build/exported_texture.h"
 #include "codec/build/open_model.h"
 #include "codec/export/write_mesh.h"
 #include "codec/files/atomic_file.h"
+#include "server/cli/client/fetch_pictures.h"
 #include "server/cli/commands/command.h"
+#include "server/cli/support/access_token.h"
 #include "server/cli/support/console.h"
+#include "server/cli/support/exported_mesh.h"
 #include "server/cli/support/input.h"
 #include "server/cli/support/isolation.h"
 #include "server/cli/support/levels.h"
+#include "server/cli/support/output.h"
 #include "server/cli/support/wants.h"
 #include "server/stream/message.h"
 
@@ -24,10 +30,13 @@ using Clock = std::chrono::steady_clock;
 
 struct Order {
   FetchOptions options;
-  std::optional<MeshFormat> format;  // format of the output; nullopt for .pmesh
+  std::optional<ExportKind> kind;  // kind of the output; nullopt for .pmesh
+  // Largest side of the pictures in the output; see pictures_to_export().
+  std::optional<std::uint32_t> texture_side = {};
+  ExportChoices choices = {};
 };
 
-// Reads a detail target from a file with the object `view` of PROTOCOL.md.
+// Reads a detail target from a file that contains the JSON object `view` of PROTOCOL.md.
 tl::expected<DetailTarget, Fault> read_view_file(const std::string& path) {
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
@@ -62,26 +71,42 @@ tl::expected<Order, Fault> read_order(const Arguments& arguments) {
   Order order;
   order.options.out = arguments.text("-o");
   const std::string extension = order.options.out.extension().string();
-  order.format = format_of_extension(extension);
-  if (!order.format && extension != ".pmesh")
-    return misused(fmt::format("cannot tell the output format from its name; use one of {}, .pmesh",
-                               std::string_view(kExportSuffixes)));
+  if (extension != ".pmesh") {
+    const auto kind = read_export_kind(order.options.out.string(), ", .pmesh");
+    if (!kind) return tl::unexpected(kind.error());
+    order.kind = *kind;
+  }
   const auto target = read_detail_target(arguments);
   if (!target) return tl::unexpected(target.error());
-  if (*target && !order.format)
+  if (*target && !order.kind)
     return misused(
         "a .pmesh file contains the whole model; choose another format, or leave out the detail "
         "flag");
   order.options.target = *target;
+  if (arguments.has(kTextureFlag.name) && !order.kind)
+    return misused("a .pmesh file contains the whole texture; leave out --texture");
+  const auto side = read_texture_side(arguments);
+  if (!side) return tl::unexpected(side.error());
+  order.texture_side = *side;
+  if (order.kind) {
+    const auto choices = read_export_choices(arguments, order.kind->format);
+    if (!choices) return tl::unexpected(choices.error());
+    order.choices = *choices;
+  } else if (arguments.has(kUnitInFileFlag.name) || arguments.has(kUpInFileFlag.name) ||
+             arguments.has(kCompressionFlag.name)) {
+    return misused("a .pmesh file is the model as it is; leave out --unit, --up and --compression");
+  }
   auto url = parse_model_url(arguments.operand(0));
   if (!url) return misused(url.error().message);
   order.options.url = std::move(*url);
-  order.options.token = arguments.text("--token");
+  auto token = access_token(arguments);
+  if (!token) return tl::unexpected(token.error());
+  order.options.token = std::move(*token);
   return order;
 }
 
-// Returns the number of bytes of the file up to the coarsest level that meets `target`, or the
-// number that `target` asks for if it is in bytes.
+// Returns the number of bytes to fetch. If `target` is a number of bytes, returns that number.
+// Otherwise counts all bytes up to the coarsest level that meets `target`.
 double bytes_for(const Manifest& m, const std::optional<DetailTarget>& target) {
   const auto* want = target ? std::get_if<Want>(&*target) : nullptr;
   if (want == nullptr) return static_cast<double>(m.file_bytes);
@@ -139,12 +164,35 @@ class FetchBar {
   ProgressBar bar_;
 };
 
-tl::expected<Fetched, Fault> receive(FetchOptions options) {
+// Returns the numbers of the pictures that the output needs.
+std::vector<std::size_t> pictures_for(const Order& order, const PartialModel& model) {
+  const Manifest& manifest = *model.manifest();
+  if (order.kind) {
+    return pictures_to_export(manifest, triangles_of(model), order.texture_side,
+                              roles_in(order.kind->format));
+  }
+  std::vector<std::size_t> numbers(manifest.texture.pictures.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
+}
+
+tl::expected<Fetched, Fault> receive(const Order& order) {
+  FetchOptions options = order.options;
   FetchBar bar(options.target);
   options.on_progress = [&](const PartialModel& model) { bar.show(model); };
   auto fetched = fetch(options);
   if (!fetched)
     return failed(fmt::format("{}: {}", options.url.authority(), fetched.error().message));
+  const auto pictures =
+      fetch_pictures(options, pictures_for(order, fetched->model), fetched->model);
+  if (!pictures)
+    return failed(fmt::format("{}: {}", options.url.authority(), pictures.error().message));
+  fetched->received += *pictures;
+  if (order.kind || order.options.target) return std::move(*fetched);
+  const auto optional = fetch_optional_blocks(options, fetched->model);
+  if (!optional)
+    return failed(fmt::format("{}: {}", options.url.authority(), optional.error().message));
+  fetched->received += *optional;
   return std::move(*fetched);
 }
 
@@ -166,29 +214,26 @@ Expected<Product> decode_held(const PartialModel& model, std::span<const std::ui
   const auto* triangles = want != nullptr ? std::get_if<WantTriangles>(want) : nullptr;
   if (triangles != nullptr && triangles->triangles < refiner->face_count())
     refiner->undo_to_faces(static_cast<std::uint32_t>(triangles->triangles));
-  const TriangleMesh mesh = refiner->display_mesh();
-  auto file = write_mesh(mesh, *order.format, manifest.unit);
-  if (!file) return tl::unexpected(file.error());
-  nlohmann::json report = {{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}};
-  if (auto note = note_on_precision(mesh, *order.format); !note.empty()) report["note"] = note;
-  return Product{std::move(report), std::move(*file)};
+  return exported_mesh(*refiner, pmesh, *order.kind, order.options.out.string(),
+                       pictures_for(order, model), order.choices);
 }
 
 // Writes the output file and returns its numbers of faces and vertices.
-tl::expected<nlohmann::json, Fault> write_out(const PartialModel& model, const Order& order) {
+tl::expected<nlohmann::json, Fault> write_out(const Arguments& arguments, const PartialModel& model,
+                                              const Order& order) {
   const std::string out = order.options.out.string();
   const auto part = InputFile::open(model.path().string());
   if (!part) return failed(part.error());
-  if (!order.format) {
+  if (!order.kind) {
     if (auto written = write_file_atomically(out, part->bytes()); !written)
       return failed(written.error());
     const LevelInfo& finest = model.manifest()->levels.back();
     return nlohmann::json{{"faces", finest.faces}, {"vertices", finest.vertices}};
   }
-  const auto product =
+  auto product =
       isolate(out, [&](const ProgressReport&) { return decode_held(model, part->bytes(), order); });
   if (!product) return tl::unexpected(product.error());
-  if (auto written = write_file_atomically(out, product->file); !written)
+  if (auto written = write_export(arguments, out, *product); !written)
     return failed(written.error());
   return product->report;
 }
@@ -204,17 +249,17 @@ CommandOutcome fetch_model(const Arguments& arguments) {
   const auto order = read_order(arguments);
   if (!order) return tl::unexpected(order.error());
   const std::string out = order->options.out.string();
-  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
-  const auto fetched = receive(order->options);
+  if (const auto free = check_output(arguments, out); !free) return failed(free.error());
+  const auto fetched = receive(*order);
   if (!fetched) return tl::unexpected(fetched.error());
   const PartialModel& model = fetched->model;
   const auto* want = order->options.target ? std::get_if<Want>(&*order->options.target) : nullptr;
   if (want != nullptr) {
     if (auto met = check_want(*model.manifest(), *want); !met) return failed(met.error());
   }
-  auto report = write_out(model, *order);
+  auto report = write_out(arguments, model, *order);
   if (!report) return tl::unexpected(report.error());
-  std::error_code kept;  // ignored: a file that cannot be removed is used by the next run
+  std::error_code kept;  // ignored: if the file stays, the next run uses it
   fs::remove(model.path(), kept);
   (*report)["bytes"] = model.bytes();
   (*report)["received_bytes"] = fetched->received;
@@ -223,16 +268,22 @@ CommandOutcome fetch_model(const Arguments& arguments) {
   (*report)["seconds"] = fetched->seconds;
   if (fetched->promise) (*report)["promise"] = promise_json(*fetched->promise);
   if (arguments.has("--json")) return print_json(*report);
-  return print(fmt::format("{}: {} faces, {} vertices from {} bytes in {:.2f} s", out,
+  return print(fmt::format("{}: {} faces, {} vertices from {} bytes in {:.2f} s{}", out,
                            (*report)["faces"].get<std::uint64_t>(),
                            (*report)["vertices"].get<std::uint64_t>(), model.bytes(),
-                           fetched->seconds));
+                           fetched->seconds, companions_as_text(*report)));
 }
 
 constexpr std::string_view kFetchOperands[] = {"URL"};
 constexpr FixedText kFetchOutput = concatenate("OUT.{", kExportChoice, ",pmesh}");
+constexpr FixedText kFetchDetails = concatenate(
+    "URL is the address of a model's page, such as https://museum.example/models/ID. The name of "
+    "OUT chooses the format. --level, --triangles, --bytes, --error, --seconds and --view exclude "
+    "each other; without any, the whole model is fetched. An interrupted fetch continues when the "
+    "command is run again. ",
+    kNoteOnCompanions);
 constexpr Flag kFetchFlags[] = {
-    {"-o", kFetchOutput, "file in the model's unit; .glb, .wrl: m (required)"},
+    {"-o", kFetchOutput, "file to write (required)"},
     {"--level", "L", "level of detail; 0 is the coarsest"},
     {"--triangles", "N", "finest mesh with at most N triangles"},
     {"--bytes", "B", "finest mesh in the first B bytes of the file"},
@@ -241,21 +292,24 @@ constexpr Flag kFetchFlags[] = {
     {"--view", "FILE.json",
      "detail for a camera: an object with camera (16 numbers), fov, width, height, pixels, "
      "optionally bytes; see server/stream/PROTOCOL.md"},
+    kTextureFlag,
+    kUnitInFileFlag,
+    kUpInFileFlag,
+    kCompressionFlag,
     {"--token", "T", "token of role viewer or higher, for unpublished models"},
+    kTokenFileFlag,
+    kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace
 
-const Command kFetch = {.name = "fetch",
-                        .summary = "Fetches a model from a server, at full or reduced detail.",
-                        .details =
-                            "URL is the address of a model's page, such as "
-                            "https://museum.example/models/ID. The name of OUT chooses the format. "
-                            "--level, --triangles, --bytes, --error, --seconds and --view exclude "
-                            "each other; without any, the whole model is fetched. An interrupted "
-                            "fetch continues when the command is run again.",
-                        .operands = kFetchOperands,
-                        .flags = kFetchFlags,
-                        .run = fetch_model};
+const Command kFetch = {
+    .name = "fetch",
+    .summary = "Fetches a model from a server, at full or reduced detail.",
+    .details = kFetchDetails,
+    .operands = kFetchOperands,
+    .flags = kFetchFlags,
+    .examples = "vitrine fetch https://museum.example/models/ID -o bust.glb --triangles 50000",
+    .run = fetch_model};
 
 }  // namespace vitrine::server::cli

@@ -8,7 +8,8 @@
 
 int main(int argc, char** argv) {
   vitrine::keep_standard_streams();
-  // Ignored so that a command whose output pipe is closed can still switch off its devices.
+  // Ignores SIGPIPE, so that a command whose output pipe is closed can still switch off its
+  // devices.
   std::signal(SIGPIPE, SIG_IGN);
   const std::vector<std::string_view> words(argv + (argc > 0 ? 1 : 0), argv + argc);
   return vitrine::server::cli::run(words);

@@ -32,7 +32,7 @@ std::string note_on_units(const SurfaceInput& a, const SurfaceInput& b) {
       first ? "A" : "B", first ? "B" : "A", first ? b.unit : a.unit, first ? "A" : "B");
 }
 
-// Returns the lines about pictures and materials of A and B that are not compared.
+// Returns a note for each kind of material or picture of A and B that is not compared.
 std::vector<std::string> notes_on_looks(const SurfaceInput& a, const SurfaceInput& b) {
   std::vector<std::string> notes;
   for (const std::string& line : a.not_carried)
@@ -42,7 +42,7 @@ std::vector<std::string> notes_on_looks(const SurfaceInput& a, const SurfaceInpu
   return notes;
 }
 
-// Returns one note about all that makes the numbers doubtful. Empty if there is no doubt.
+// Joins the reasons to doubt the numbers into one note. Returns an empty text if there are none.
 std::string notes_on(const SurfaceInput& a, const SurfaceInput& b) {
   std::vector<std::string> notes = notes_on_looks(a, b);
   if (auto units = note_on_units(a, b); !units.empty()) notes.push_back(std::move(units));
@@ -79,11 +79,11 @@ std::string likeness(const json& r) {
   return fmt::format("PSNR: {}\nSSIM: {:.4f}", psnr, r["ssim"].get<double>());
 }
 
-// A figure of two surfaces.
+// A way to compare two surfaces, for example by their distance.
 struct Measure {
   std::function<Expected<json>(SurfaceInput a, SurfaceInput b)> compare;
   std::string (*as_text)(const json& report);
-  SurfaceParts parts = SurfaceParts::kShape;  // of the surfaces that `compare` needs
+  SurfaceParts parts = SurfaceParts::kShape;  // the parts that `compare` needs
 };
 
 Measure distance_measure(const MeasureOptions& options) {
@@ -120,7 +120,7 @@ tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
   return distance_measure(options);
 }
 
-// A surface's file with the files beside it that its parts need.
+// A surface's file, and the files beside it that contain the required parts.
 class MeasuredFile {
  public:
   MeasuredFile(std::string name, InputFile file, SurfaceParts parts)
@@ -132,6 +132,7 @@ class MeasuredFile {
 
   Expected<SurfaceInput> read(ReadOptions options) const {
     options.beside = beside_.contents();
+    options.name = name_;
     return read_surface(file_, name_, options, parts_);
   }
 
@@ -199,6 +200,7 @@ const Command kMeasure = {
         "is in B's unit.",
     .operands = kMeasureOperands,
     .flags = kMeasureFlags,
+    .examples = "vitrine measure small.ply bust.ply",
     .run = run_measure};
 
 }  // namespace vitrine::server::cli

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "server/cli/commands/command.h"
+#include "server/cli/support/audit_trail.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/place.h"
 
@@ -15,9 +16,13 @@ Expected<MigrationReport> migrate_between(const Arguments& arguments) {
   if (!from) return tl::unexpected(from.error());
   auto to = open_existing(arguments.text("--to"));
   if (!to) return tl::unexpected(to.error());
-  return migrate(*from, *to, [](std::size_t done, std::size_t all) {
+  const auto trail = AuditTrail::open(to->place.folder);
+  if (!trail) return tl::unexpected(trail.error());
+  auto report = migrate(*from, *to, [](std::size_t done, std::size_t all) {
     if (done == all || done % 100 == 0) print_note(fmt::format("{} of {} files", done, all));
   });
+  trail->record("migrate", arguments.text("--from"), report.has_value());
+  return report;
 }
 
 CommandOutcome migrate_installation(const Arguments& arguments) {

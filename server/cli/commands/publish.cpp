@@ -7,8 +7,11 @@
 
 #include "codec/build/build_model.h"
 #include "codec/build/verify_model.h"
+#include "codec/files/companions.h"
 #include "server/cli/client/remote_vitrine.h"
 #include "server/cli/commands/command.h"
+#include "server/cli/support/access_token.h"
+#include "server/cli/support/audit_trail.h"
 #include "server/cli/support/companion_files.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/input.h"
@@ -21,8 +24,14 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
+// Prints what the build changed or left out.
+void print_repairs(const std::string& path, const nlohmann::json& repairs) {
+  for (const nlohmann::json& repair : repairs)
+    print_note(fmt::format("{}: {}", path, repair.get<std::string>()));
+}
+
 // Returns the .pmesh file to publish. Builds it if the input is a mesh. A .pmesh input may come
-// from anyone, so it is first decoded completely.
+// from anyone, so this function first decodes the whole file as a check.
 tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path,
                                       const ReadOptions& reading, const SpillOptions& spill) {
   const auto task = [&](const ProgressReport& progress) -> Expected<Product> {
@@ -33,12 +42,13 @@ tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& 
     }
     auto built = build_model(file.bytes(), {.reading = reading}, progress);
     if (!built) return tl::unexpected(built.error());
-    auto report = nlohmann::json::object();
+    nlohmann::json report = {{"repairs", built->report.input.repairs}};
     if (auto note = note_on_unit(file.bytes(), reading); !note.empty()) report["note"] = note;
     return Product{std::move(report), std::move(built->file)};
   };
   const auto product = isolate(path, task, spill);
   if (!product) return tl::unexpected(product.error());
+  print_repairs(path, product->report.value("repairs", nlohmann::json::array()));
   return product->file;
 }
 
@@ -60,9 +70,9 @@ tl::expected<Bytes, Fault> bytes_to_send(const InputFile& file, const std::strin
   return Bytes(file.bytes().begin(), file.bytes().end());
 }
 
-// Uploads the bytes and publishes the model. Returns the model's ID.
-tl::expected<std::string, Fault> publish_bytes(RemoteVitrine& remote, const Bytes& bytes,
-                                               nlohmann::json order) {
+// Uploads the bytes and publishes the model. Returns the finished job.
+tl::expected<nlohmann::json, Fault> publish_bytes(RemoteVitrine& remote, const Bytes& bytes,
+                                                  nlohmann::json order) {
   ProgressBar bar;
   const auto upload = remote.upload(bytes, bar.report());
   if (!upload) return tl::unexpected(upload.error());
@@ -70,15 +80,25 @@ tl::expected<std::string, Fault> publish_bytes(RemoteVitrine& remote, const Byte
   const auto started =
       remote.ask_with_retries("POST", "/api/v1/models", order, "Idempotency-Key: " + *upload);
   if (!started) return tl::unexpected(started.error());
-  const auto done = remote.await(started->value("job", ""), bar.report());
-  if (!done) return tl::unexpected(done.error());
-  return done->value("model", "");
+  return remote.await(started->value("job", ""), bar.report());
+}
+
+ModelMetadata metadata_of(const Arguments& arguments) {
+  std::filesystem::path name(arguments.operand(0));
+  if (name.extension() == ".gz") name.replace_extension();
+  return {.title = arguments.text("--title", as_utf8(name.stem().string())),
+          .creator = arguments.text("--creator"),
+          .rights = arguments.text("--rights"),
+          .licence = arguments.text("--licence")};
 }
 
 nlohmann::json order_of(const Arguments& arguments, const ReadOptions& reading) {
-  const std::string stem = std::filesystem::path(arguments.operand(0)).stem().string();
+  const ModelMetadata about = metadata_of(arguments);
   nlohmann::json order = {{"publish", true}, {"up", reading.up == UpAxis::kZ ? "z" : "y"}};
-  order["metadata"]["title"] = arguments.text("--title", stem);
+  order["metadata"] = {{"title", about.title},
+                       {"creator", about.creator},
+                       {"rights", about.rights},
+                       {"licence", about.licence}};
   if (!reading.unit.empty()) order["unit"] = reading.unit;
   return order;
 }
@@ -89,20 +109,23 @@ CommandOutcome publish_at_server(const Arguments& arguments) {
   if (!remote) return tl::unexpected(remote.error());
   const auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
+  if (const auto usable = check_texts(metadata_of(arguments)); !usable)
+    return failed(usable.error());
   const std::string path = arguments.operand(0);
   const auto file = open_input(arguments);
   if (!file) return tl::unexpected(file.error());
   const auto bytes = bytes_to_send(*file, path, *reading);
   if (!bytes) return tl::unexpected(bytes.error());
-  const auto id = publish_bytes(*remote, *bytes, order_of(arguments, *reading));
-  if (!id) return failed(fmt::format("{}: {}", path, id.error().message));
-  const std::string url = remote->origin() + "/models/" + *id;
-  return arguments.has("--json") ? print_json({{"id", *id}, {"url", url}}) : print(url);
+  const auto done = publish_bytes(*remote, *bytes, order_of(arguments, *reading));
+  if (!done) return failed(fmt::format("{}: {}", path, done.error().message));
+  print_repairs(path, done->value("repairs", nlohmann::json::array()));
+  const std::string id = done->value("model", ""), url = remote->origin() + "/models/" + id;
+  return arguments.has("--json") ? print_json({{"id", id}, {"url", url}}) : print(url);
 }
 
 CommandOutcome publish_file(const Arguments& arguments) {
   if (arguments.has("--server")) return publish_at_server(arguments);
-  if (arguments.has("--token")) return misused("--token needs --server; leave it out");
+  if (names_token(arguments)) return misused("a token needs --server; leave it out");
   if (!arguments.has("--data"))
     return misused("--data or --server is missing; name the data folder or the server");
   auto reading = reading_options(arguments);
@@ -115,6 +138,7 @@ CommandOutcome publish_file(const Arguments& arguments) {
   if (const auto usable = check_existing(*place); !usable) return failed(usable.error());
   const CompanionFiles companions(path, file->bytes());
   reading->beside = companions.contents();
+  reading->name = path;
   const SpillOptions spill{.folder = place->folder, .input = file->bytes()};
   const auto pmesh = make_pmesh(*file, path, *reading, spill);
   if (!pmesh) return tl::unexpected(pmesh.error());
@@ -125,9 +149,11 @@ CommandOutcome publish_file(const Arguments& arguments) {
   if (!limit) return failed(limit.error());
   const Uploads uploads(limit->uploads, {});
   Quota quota(*installation->catalogue, uploads, limit->bytes);
-  const std::string stem = std::filesystem::path(path).stem().string();
+  const auto trail = AuditTrail::open(installation->place.folder);
+  if (!trail) return failed(trail.error());
   const auto published = publish(*installation->store, *installation->catalogue, *pmesh,
-                                 {.title = arguments.text("--title", stem)}, {.quota = &quota});
+                                 metadata_of(arguments), {.quota = &quota});
+  trail->record("publish", published ? published->id.to_string() : path, published.has_value());
   if (!published) return failed(published.error());
   const std::string id = published->id.to_string();
   if (!published->is_new) {
@@ -147,17 +173,24 @@ constexpr Flag kPublishFlags[] = {
     kUpFlag,
     {"--server", "URL", "address of a server, such as https://museum.example, instead of --data"},
     {"--token", "T", "with --server: access token of role operator or higher"},
+    kTokenFileFlag,
     {"--title", "T", "title of the model (default: name of the file)"},
+    {"--creator", "C", "who made the object"},
+    {"--rights", "R", "who holds the rights, such as \"Museum of Example, 2026\""},
+    {"--licence", "L", "licence, such as CC-BY-4.0 or its address"},
     {"--json", "", "print the result as one JSON object: id and url"}};
 
 }  // namespace
 
 const Command kPublish = {
     .name = "publish",
-    .summary = "Publishes a mesh or .pmesh file, so that visitors can open it.",
+    .summary = "Publishes a mesh, a package with one (zip, tar or gzip) or a .pmesh file.",
     .details = "Give --data on the daemon's machine, or --server and --token anywhere else.",
     .operands = kPublishOperands,
     .flags = kPublishFlags,
+    .examples =
+        "vitrine publish bust.ply --data /var/lib/vitrine --title Bust\nvitrine publish bust.glb "
+        "--server https://museum.example --token-file token.txt --licence CC0-1.0",
     .run = publish_file};
 
 }  // namespace vitrine::server::cli

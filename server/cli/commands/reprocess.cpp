@@ -6,6 +6,7 @@
 #include "acquisition/session/scanner_config.h"
 #include "server/cli/commands/command.h"
 #include "server/cli/support/console.h"
+#include "server/cli/support/output.h"
 #include "server/cli/support/processing_options.h"
 #include "server/cli/support/scanned_mesh.h"
 
@@ -38,7 +39,7 @@ CommandOutcome run_reprocess(const Arguments& arguments) {
   if (!arguments.has("--config"))
     return misused("--config is missing; name the scanner's configuration file");
   const std::string out = arguments.text("-o");
-  const auto format = scan_output(out);
+  const auto format = scan_output(arguments);
   if (!format) return tl::unexpected(format.error());
   const auto config = acquisition::read_scanner_config(arguments.text("--config"));
   if (!config) return failed(config.error());
@@ -73,6 +74,7 @@ constexpr Flag kReprocessFlags[] = {
     kLargestAngleFlag,
     kLargestHoleFlag,
     {"--calibration", "N", "number of the calibration (default: the one the scan used)"},
+    kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace

@@ -15,9 +15,10 @@
 namespace vitrine::server::cli {
 namespace {
 
-constexpr std::array kCommands = {
-    &kBuild, &kInfo,      &kDecode, &kVerify, &kMeasure, &kPublish, &kFetch,   &kCalibrate,
-    &kScan,  &kReprocess, &kMerge,  &kToken,  &kBackup,  &kRestore, &kMigrate, &kDoctor};
+constexpr std::array kCommands = {&kBuild,   &kInfo,   &kDecode,    &kVerify,  &kMeasure,
+                                  &kPublish, &kFetch,  &kCalibrate, &kScan,    &kReprocess,
+                                  &kFuse,    &kToken,  &kBackup,    &kRestore, &kRepair,
+                                  &kMigrate, &kDoctor, &kCompletion};
 
 std::string flag_usage(const Flag& flag) {
   return flag.value.empty() ? std::string(flag.name) : fmt::format("{} {}", flag.name, flag.value);
@@ -31,8 +32,15 @@ std::string overview() {
     text += fmt::format("  {:<10} {}\n", command->name, command->summary);
   }
   return text +
-         "\nRun 'vitrine COMMAND --help' for the flags of a command, 'vitrine --version' for the "
+         "\nRun 'vitrine help COMMAND' for the flags of a command, 'vitrine --version' for the "
          "version.\nThe daemon that serves models is vitrined; see 'vitrined --help'.";
+}
+
+std::string indented(std::string_view lines) {
+  std::string text = "  ";
+  for (const char c : lines)
+    text += c == '\n' ? std::string("\n  ") : std::string(1, c);
+  return text;
 }
 
 std::string usage(const Command& command) {
@@ -48,6 +56,8 @@ std::string usage(const Command& command) {
                                       : fmt::format("{}\n{:{}}", name, "", kHelpColumn);
     text += wrapped(flag.help, kHelpColumn) + "\n";
   }
+  if (!command.examples.empty())
+    text += fmt::format("\nExamples:\n{}\n", indented(command.examples));
   return text + "\nExit code: 0 success, 1 failure, 2 wrong usage.";
 }
 
@@ -77,18 +87,27 @@ CommandOutcome run_command(const Command& command, std::span<const std::string_v
   return command.run(*arguments);
 }
 
-CommandOutcome dispatch(std::span<const std::string_view> words) {
-  if (words.empty()) return misused("no command is given; see vitrine --help");
-  if (asks_for_help(words[0]) || words[0] == "help") return print(overview());
-  if (words[0] == "--version") return print("vitrine " VITRINE_VERSION);
-  for (const Command* command : kCommands) {
-    if (command->name == words[0]) return run_command(*command, words.subspan(1));
-  }
-  return unknown_command(words[0]);
+const Command* find_command(std::string_view name) {
+  const auto found = std::ranges::find(kCommands, name, &Command::name);
+  return found == kCommands.end() ? nullptr : *found;
 }
 
-// Runs the command and returns an exception as a failure. Since the exception is caught,
-// destructors switch off laser and motor.
+CommandOutcome help(std::span<const std::string_view> words) {
+  if (words.empty()) return print(overview());
+  const Command* command = find_command(words[0]);
+  return command == nullptr ? unknown_command(words[0]) : print(usage(*command));
+}
+
+CommandOutcome dispatch(std::span<const std::string_view> words) {
+  if (words.empty()) return misused("no command is given; see vitrine --help");
+  if (asks_for_help(words[0]) || words[0] == "help") return help(words.subspan(1));
+  if (words[0] == "--version" || words[0] == "-V") return print("vitrine " VITRINE_VERSION);
+  const Command* command = find_command(words[0]);
+  return command == nullptr ? unknown_command(words[0]) : run_command(*command, words.subspan(1));
+}
+
+// Runs the command, and returns a failure if the command throws. Because the exception is caught
+// here, destructors run, which switch off laser and motor.
 CommandOutcome dispatch_and_catch(std::span<const std::string_view> words) {
   try {
     return dispatch(words);
@@ -102,6 +121,10 @@ CommandOutcome dispatch_and_catch(std::span<const std::string_view> words) {
 }
 
 }  // namespace
+
+std::span<const Command* const> commands() {
+  return kCommands;
+}
 
 int run(std::span<const std::string_view> words) {
   const CommandOutcome outcome = dispatch_and_catch(words);

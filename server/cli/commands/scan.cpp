@@ -6,6 +6,7 @@
 #include "acquisition/session/open_scanner.h"
 #include "server/cli/commands/command.h"
 #include "server/cli/support/console.h"
+#include "server/cli/support/output.h"
 #include "server/cli/support/processing_options.h"
 #include "server/cli/support/scanned_mesh.h"
 #include "server/cli/support/stop_signals.h"
@@ -95,7 +96,7 @@ CommandOutcome check_scan_usage(const Arguments& arguments) {
 CommandOutcome run_scan(const Arguments& arguments) {
   if (auto right = check_scan_usage(arguments); !right) return right;
   const std::string out = arguments.text("-o"), folder = out + ".scan";
-  const auto format = scan_output(out);
+  const auto format = scan_output(arguments);
   if (!format) return tl::unexpected(format.error());
   const auto config = acquisition::read_scanner_config(arguments.text("--config"));
   if (!config) return failed(config.error());
@@ -112,7 +113,7 @@ CommandOutcome run_scan(const Arguments& arguments) {
   if (!record || !*record) return failed("the scan's record is gone; scan again");
   const json report =
       describe_scanned(*surface, status.stripe, **record, (*record)->calibration, out);
-  const bool keep = (*record)->request.keep_frames;
+  const bool keep = arguments.has("--keep") || (*record)->request.keep_frames;
   const acquisition::ScanFolder rest = (*scan)->folder();
   scan->reset();
   if (!keep) rest.remove();
@@ -133,7 +134,11 @@ constexpr Flag kScanFlags[] = {
     {"--exposure", "US", "exposure time in microseconds (default: exposure_us in rig.json)"},
     {"--calibration", "N", "number of the calibration (default: the newest that fits the camera)"},
     {"--keep-frames", "", "keep all pictures in the folder OUT.ply.scan, for vitrine reprocess"},
+    {"--keep", "",
+     "keep the folder OUT.ply.scan, without pictures, for vitrine fuse; give it with --resume, "
+     "too"},
     {"--resume", "", "continue the interrupted scan in the folder OUT.ply.scan"},
+    kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace
@@ -145,6 +150,7 @@ const Command kScan = {
         "Ctrl-C interrupts the scan, with laser and motor off; its data stays in "
         "the folder OUT.ply.scan until --resume has completed it.",
     .flags = kScanFlags,
+    .examples = "vitrine scan --config rig.json -o bust.ply",
     .run = run_scan};
 
 }  // namespace vitrine::server::cli

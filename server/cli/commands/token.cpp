@@ -5,6 +5,8 @@
 #include "server/auth/role.h"
 #include "server/cli/client/remote_vitrine.h"
 #include "server/cli/commands/command.h"
+#include "server/cli/support/access_token.h"
+#include "server/cli/support/audit_trail.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/place.h"
 
@@ -23,7 +25,11 @@ tl::expected<nlohmann::json, Fault> make_token(const Arguments& arguments, Role 
   }
   const auto installation = open_existing(arguments.text("--data"));
   if (!installation) return failed(installation.error());
+  const auto trail = AuditTrail::open(installation->place.folder);
+  if (!trail) return failed(trail.error());
   const auto token = create_token(*installation->catalogue, role, label);
+  trail->record(fmt::format("token create {}", name_of(role)), token ? token->id.to_string() : "-",
+                token.has_value());
   if (!token) return failed(token.error());
   return nlohmann::json{{"id", token->id.to_string()},
                         {"role", name_of(role)},
@@ -40,7 +46,10 @@ CommandOutcome revoke_token(const Arguments& arguments, const TokenId& id) {
   }
   const auto installation = open_existing(arguments.text("--data"));
   if (!installation) return failed(installation.error());
+  const auto trail = AuditTrail::open(installation->place.folder);
+  if (!trail) return failed(trail.error());
   const auto revoked = installation->catalogue->revoke_token(id);
+  trail->record("token revoke", id.to_string(), revoked.has_value());
   return revoked ? CommandOutcome{} : failed(revoked.error());
 }
 
@@ -89,17 +98,20 @@ constexpr Flag kTokenFlags[] = {
     {"--id", "ID", "revoke: ID that create printed"},
     {"--server", "URL", "address of a server, such as https://museum.example, instead of --data"},
     {"--token", "T", "with --server: access token of role admin"},
+    kTokenFileFlag,
     {"--json", "", "print the result as one JSON object: id, role, label and token"}};
 
 }  // namespace
 
-const Command kToken = {.name = "token",
-                        .summary = "Creates or revokes an access token of a server.",
-                        .details =
-                            "Give --data on the daemon's machine, or --server and --token anywhere "
-                            "else. The new token is printed once and not stored.",
-                        .operands = kOperands,
-                        .flags = kTokenFlags,
-                        .run = change_tokens};
+const Command kToken = {
+    .name = "token",
+    .summary = "Creates or revokes an access token of a server.",
+    .details =
+        "Give --data on the daemon's machine, or --server and --token anywhere "
+        "else. The new token is printed once and not stored.",
+    .operands = kOperands,
+    .flags = kTokenFlags,
+    .examples = "vitrine token create --role operator --data /var/lib/vitrine --label Anna",
+    .run = change_tokens};
 
 }  // namespace vitrine::server::cli

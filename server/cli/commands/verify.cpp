@@ -20,14 +20,19 @@ json describe(const Verification& v) {
           {"lossless", v.is_lossless.has_value() ? json(*v.is_lossless) : json()},
           {"levels", v.levels},
           {"chunks", v.chunks},
+          {"pictures", v.pictures},
+          {"originals", v.has_originals},
           {"vertices", v.vertices},
           {"faces", v.faces},
           {"orders", v.orders}};
 }
 
 std::string verdict(const json& report) {
-  return fmt::format("ok: {} levels and {} chunks, {} vertices, {} faces, {} order(s){}",
+  const auto pictures = report["pictures"].get<std::uint64_t>();
+  return fmt::format("ok: {} levels and {} chunks{}{}, {} vertices, {} faces, {} order(s){}",
                      report["levels"].get<std::uint64_t>(), report["chunks"].get<std::uint64_t>(),
+                     pictures > 0 ? fmt::format(", {} picture(s)", pictures) : std::string(),
+                     report["originals"].get<bool>() ? ", the source's originals" : "",
                      report["vertices"].get<std::uint64_t>(), report["faces"].get<std::uint64_t>(),
                      report["orders"].get<std::uint64_t>(),
                      report["lossless"].is_null() ? "" : "; lossless");
@@ -77,11 +82,11 @@ CommandOutcome verify(const Arguments& arguments) {
 }
 
 constexpr std::string_view kVerifyOperands[] = {"FILE.pmesh"};
-constexpr Flag kVerifyFlags[] = {
-    {"--against", "IN",
-     "mesh that the file was built from, to check that its finest level has the same surface"},
-    {"--up", "y|z", "with --against: --up of the build (default y)"},
-    {"--json", "", "print the result as one JSON object"}};
+constexpr Flag kVerifyFlags[] = {{"--against", "IN",
+                                  "mesh that the file was built from, to check that its finest "
+                                  "level has the same surface and the same originals"},
+                                 {"--up", "y|z", "with --against: --up of the build (default y)"},
+                                 {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace
 
@@ -89,6 +94,7 @@ const Command kVerify = {.name = "verify",
                          .summary = "Decodes and checks all parts of a .pmesh file.",
                          .operands = kVerifyOperands,
                          .flags = kVerifyFlags,
+                         .examples = "vitrine verify bust.pmesh --against bust.ply",
                          .run = verify};
 
 }  // namespace vitrine::server::cli

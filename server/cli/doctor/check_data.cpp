@@ -11,8 +11,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "server/catalogue/snapshot.h"
-#include "server/catalogue/sqlite_catalogue.h"
+#include "server/cli/doctor/catalogue_copy.h"
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
 
@@ -64,8 +63,9 @@ struct FileCount {
   std::string first;  // ID of a model whose file is missing or incomplete
 };
 
-Expected<FileCount> count_files(const fs::path& data, const fs::path& snapshot) {
-  const auto catalogue = open_sqlite_catalogue(snapshot);
+Expected<FileCount> count_files(const fs::path& data) {
+  const CatalogueCopy copy(data);
+  const auto catalogue = copy.open();
   if (!catalogue) return tl::unexpected(catalogue.error());
   const auto store = FileStore::open(data / "objects");
   if (!store) return tl::unexpected(store.error());
@@ -73,27 +73,20 @@ Expected<FileCount> count_files(const fs::path& data, const fs::path& snapshot) 
   if (!named) return tl::unexpected(named.error());
   std::vector<NamedFile> missing;
   std::ranges::copy_if(*named, std::back_inserter(missing), [&](const NamedFile& file) {
-    const auto object = store->open(file.file);
-    return !object || *object == nullptr || (*object)->size() != file.bytes;
+    const auto size = store->size_of(file.file);
+    return !size || *size != file.bytes;
   });
   FileCount files{.models = models_in(*named), .missing = models_in(missing), .first = {}};
   if (!missing.empty()) files.first = missing.front().model.to_string();
   return files;
 }
 
-// Checks a copy of the catalogue, because opening the original would migrate its tables if an older
-// daemon made them.
 Finding check_catalogue(const fs::path& data) {
   if (!fs::exists(data / kCatalogueFile)) {
     return {Verdict::kFail, "catalogue", "the folder has no catalogue",
             "name the data folder of a daemon, or start one with it"};
   }
-  const fs::path copy = data / fmt::format(".doctor.{}", ::getpid());
-  const auto copied = snapshot_sqlite(data / kCatalogueFile, copy);
-  const auto files =
-      copied ? count_files(data, copy) : Expected<FileCount>(tl::unexpected(copied.error()));
-  for (const char* suffix : {"", "-wal", "-shm", "-journal"})
-    ::unlink((copy.string() + suffix).c_str());
+  const auto files = count_files(data);
   if (!files) return {Verdict::kFail, "catalogue", files.error().message, "restore a backup"};
   if (files->missing > 0) {
     return {Verdict::kFail, "catalogue",

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Sends requests to a server as visitors do, through all proxies in between.
+// Sends requests to a server as visitors do, through all proxies on the way.
 class Probe {
  public:
   // `origin` has no slash at its end, as in "https://museum.example". It may contain a path that a
@@ -72,7 +72,7 @@ Finding check_certificate(const std::string& url, const RemoteAnswer& answer) {
 }
 
 Finding check_date(const RemoteAnswer& answer) {
-  constexpr double kApart = 5;  // largest difference of the clocks in seconds
+  constexpr double kApart = 5;  // largest accepted difference of the clocks, in seconds
   const std::time_t theirs = curl_getdate(answer.field("date").c_str(), nullptr);
   if (theirs < 0)
     return {Verdict::kWarn, "server clock", "the answer has no Date field",

@@ -13,7 +13,7 @@ namespace vitrine::server {
 
 // Makes the page. `input` and `reading` are the arguments of the build, `built` is its result, and
 // `name` is the input's name for display. Parses the input again, so it must run in the sandbox.
-// Reports only the stage "report". Fails with the errors of reading and decoding.
+// Reports its progress as the stage "report". Fails with the errors of reading and decoding.
 Expected<std::string> build_report(std::string_view name, std::span<const std::uint8_t> input,
                                    const ReadOptions& reading, const BuildResult& built,
                                    const ProgressReport& progress);

@@ -19,8 +19,8 @@ std::string count_text(std::uint64_t count);  // returns a text such as 1 234 56
 std::string bytes_text(std::uint64_t bytes);  // returns a text such as 1.2 kB or 34 MB
 std::string significant(double x);  // returns three digits, such as 0.0123, 1.23 or 12 300
 
-// Format a number as an element whose text is rounded and whose value is exact, such as <data
-// value="0.012345">0.0123</data>.
+// These functions format a number as an element whose text is rounded and whose value is exact,
+// such as <data value="0.012345">0.0123</data>.
 std::string count_data(std::uint64_t count);
 std::string number_data(double x);
 

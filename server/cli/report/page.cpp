@@ -173,7 +173,7 @@ class Page {
            fact("Header, base mesh", count_text(manifest_.base_offset) + " + " +
                                          count_text(manifest_.base_length) + " bytes") +
            fact("Layers", fmt::format("{} chunks, {} bytes", count_text(manifest_.chunks.size()),
-                                      count_text(manifest_.file_bytes - manifest_.head_bytes()))) +
+                                      count_text(manifest_.chunk_bytes()))) +
            fact("SHA-256", "<code>" + to_hex(contents_.sha256) + "</code>") +
            "</dl>\n</div>\n</section>\n";
   }

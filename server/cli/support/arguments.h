@@ -15,7 +15,7 @@
 namespace vitrine::server::cli {
 
 struct Flag {
-  std::string_view name;   // such as "--level"; "-o" is the one short flag
+  std::string_view name;   // such as "--level"; the only short flag is "-o"
   std::string_view value;  // name of the value in --help; empty for a switch
   std::string_view help;
 };
@@ -34,7 +34,7 @@ class Arguments {
   std::string operand(std::size_t index) const { return operands_[index]; }
   bool has(std::string_view flag) const { return values_.contains(flag); }
   std::string text(std::string_view flag, std::string_view otherwise = "") const;
-  // Returns the error for a value that is not what `wanted` describes.
+  // Returns a usage error: the value of `flag` is not what `wanted` describes.
   tl::unexpected<Fault> wrong_value(std::string_view flag, std::string_view wanted) const;
 
   // Returns the value as a whole number in [low, high]; nullopt if the flag is absent.

@@ -2,12 +2,12 @@
 #include "server/cli/support/companion_files.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <vector>
 
 #include "codec/gltf/glb_file.h"
 #include "codec/import/readers.h"
+#include "codec/package/unpack.h"
 
 namespace vitrine::server::cli {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSearchedBytes = 1 << 20;
-constexpr std::size_t kMostSearchedJson = 16 << 20;  // a glTF file may name its files at the end
+constexpr std::size_t kMostSearchedJson = 16 << 20;  // bytes; a glTF file may name files at its end
 
 std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -26,15 +26,27 @@ std::string_view json_of(std::span<const std::uint8_t> glb) {
   return chunks ? chunks->json : std::string_view();
 }
 
-// Returns the part of a file that may contain names, in lower case, since names are compared
-// without case, and without the percent-encoding of glTF.
+// Converts each line on its own, because several programs may have written them.
+std::string lines_as_utf8(std::string_view text) {
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    out += as_utf8(text.substr(begin, end - begin));
+    begin = end;
+  }
+  return out;
+}
+
+// Returns the part of a file that may name other files. The result is in lower case, because names
+// are compared without regard to case. Each of its lines is UTF-8, as names are. The
+// percent-encoding of glTF is decoded.
 std::string searchable(std::span<const std::uint8_t> bytes) {
   const bool has_uris = is_glb(bytes) || is_gltf(bytes);
   const std::size_t most = has_uris ? kMostSearchedJson : kMostSearchedBytes;
   std::string text((is_glb(bytes) ? json_of(bytes) : text_of(bytes)).substr(0, most));
   for (char& c : text)
     c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return has_uris ? percent_decoded(text) : text;
+  return has_uris ? percent_decoded(text) : lines_as_utf8(text);
 }
 
 // Appends the entries of a folder in the order of their names.
@@ -59,23 +71,22 @@ std::vector<fs::path> files_beside(const std::string& path) {
 }
 
 bool is_library(const std::string& key) {
-  return key.ends_with(".mtl");
+  return companion_kind(key) == CompanionKind::kLibrary;
 }
 
 bool is_buffer(const std::string& key) {
-  return key.ends_with(".bin");
+  return companion_kind(key) == CompanionKind::kBuffer;
 }
 
 bool is_buffer_or_picture(const std::string& key) {
-  constexpr std::array<std::string_view, 4> kPictures{".png", ".jpg", ".jpeg", ".webp"};
-  return is_buffer(key) ||
-         std::ranges::any_of(kPictures, [&](std::string_view end) { return key.ends_with(end); });
+  return is_buffer(key) || companion_kind(key) == CompanionKind::kPicture;
 }
 
-// Tells from the key of a file whether it is opened.
+// Decides whether the file with this key is opened.
 using Filter = bool (*)(const std::string& key);
 
-// Returns the filters to use one after the other. Files that pass the first may name others.
+// Returns the filters in the order of their use. Files that pass one filter may name files that
+// pass the next.
 std::vector<Filter> filters_of(CompanionKinds kinds) {
   if (kinds == CompanionKinds::kBuffers) return {is_buffer};
   return {is_library, is_buffer_or_picture};
@@ -85,6 +96,7 @@ std::vector<Filter> filters_of(CompanionKinds kinds) {
 
 CompanionFiles::CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh,
                                CompanionKinds kinds) {
+  if (is_package(mesh)) return;
   const std::vector<fs::path> candidates = files_beside(path);
   std::string text = searchable(mesh);
   for (const Filter is_wanted : filters_of(kinds)) {
@@ -93,7 +105,7 @@ CompanionFiles::CompanionFiles(const std::string& path, std::span<const std::uin
       const std::string key = companion_key(candidate.filename().string());
       if (!is_wanted(key) || files_.contains(key) || text.find(key) == text.npos) continue;
       auto file = InputFile::open(candidate.string());
-      if (!file) continue;  // the report names it as missing
+      if (!file) continue;  // the reader reports it as missing
       if (is_library(key)) libraries += searchable(file->bytes()) + '\n';
       files_.emplace(key, std::move(*file));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens the material libraries, buffers and pictures beside a mesh file that refers to them. The
-// sandbox cannot open files, so they are opened outside it. They are parsed only in the sandbox.
+// files are opened outside the sandbox, which cannot open files, but parsed only inside it.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,16 @@
 
 namespace vitrine::server::cli {
 
-// kBuffers: only the .bin files, which have the shape of a glTF file.
+// kBuffers: only the .bin files, which contain the shape of a glTF model.
 enum class CompanionKinds : std::uint8_t { kAll, kBuffers };
 
 class CompanionFiles {
  public:
   // Opens the .mtl files in the folder of `path` and its subfolders whose names occur in the first
   // megabyte of `mesh`, or in the JSON of a glTF file. Also opens the .bin files and pictures whose
-  // names occur there or in those .mtl files. If names repeat, the file in the folder itself is
-  // opened, or else that in the first subfolder.
+  // names occur there or in those .mtl files. If several files have the same name, opens the one in
+  // the folder itself, or else the one in the first subfolder. Opens no files for a package, which
+  // contains its own.
   CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh,
                  CompanionKinds kinds = CompanionKinds::kAll);
 

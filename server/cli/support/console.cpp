@@ -11,32 +11,39 @@
 #include <cstring>
 #include <utility>
 
+#include "server/store/text.h"
+
 namespace vitrine::server::cli {
+
 namespace {
 
-bool is_control(char c) {
-  return (c >= '\0' && c < ' ') || c == '\x7F';
-}
-
-}  // namespace
-
-CommandOutcome print(std::string_view text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
-                       std::fputc('\n', stdout) != EOF && std::fflush(stdout) == 0;
-  if (written) return {};
+// Returns the outcome of a write to stdout or stderr. Call this before errno changes.
+CommandOutcome outcome_of(bool is_written) {
+  if (is_written) return {};
   if (errno == EPIPE) return tl::unexpected(Fault{kNobodyReads, {}});
   return failed(fmt::format("cannot write the result to stdout: {}; check its destination",
                             std::strerror(errno)));
 }
 
-CommandOutcome print_json(const nlohmann::json& object) {
-  return print(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}  // namespace
+
+CommandOutcome print(std::string_view text, std::FILE* stream) {
+  return outcome_of(std::fwrite(text.data(), 1, text.size(), stream) == text.size() &&
+                    std::fputc('\n', stream) != EOF && std::fflush(stream) == 0);
+}
+
+CommandOutcome print_json(const nlohmann::json& object, std::FILE* stream) {
+  return print(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), stream);
+}
+
+CommandOutcome print_bytes(std::span<const std::uint8_t> bytes) {
+  return outcome_of(std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
+                    std::fflush(stdout) == 0);
 }
 
 void print_fault(std::string_view message) {
-  std::string line = fmt::format("vitrine: {}", message);
-  std::ranges::replace_if(line, is_control, '?');  // a file's name may contain line breaks
-  line += '\n';
+  // A file's name may contain line breaks, and bytes that are not UTF-8.
+  const std::string line = fmt::format("vitrine: {}\n", as_plain_text(message));
   std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw on a full disk
 }
 
@@ -68,7 +75,7 @@ ProgressReport ProgressBar::report() {
 void ProgressBar::show(std::string_view stage, double fraction) {
   if (!is_terminal_) return;
   const std::lock_guard lock(mutex_);
-  stage_ = stage;
+  stage_ = as_plain_text(stage);  // a server may have sent it
   share_ = fraction >= 0 && fraction <= 1 ? fraction : 0;
   shown_ = Clock::now();
   draw();

@@ -4,8 +4,11 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
+#include <cstdio>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -16,19 +19,24 @@
 
 namespace vitrine::server::cli {
 
-// Writes `text` and a line break to stdout. Fails if they cannot be written, for example on a full
-// disk. If the reader has closed the pipe, the failure has no message.
-CommandOutcome print(std::string_view text);
-CommandOutcome print_json(const nlohmann::json& object);  // replaces bytes that are not UTF-8
+// Writes `text` and a line break to `stream`. Fails if they cannot be written, for example on a
+// full disk. If the reader has closed the pipe, the failure has no message.
+CommandOutcome print(std::string_view text, std::FILE* stream = stdout);
+// Replaces bytes that are not UTF-8.
+CommandOutcome print_json(const nlohmann::json& object, std::FILE* stream = stdout);
 
-// Prints "vitrine: " and the message to stderr. Ignores errors of stderr.
+// Writes the content of a file to stdout. Fails like print().
+CommandOutcome print_bytes(std::span<const std::uint8_t> bytes);
+
+// Prints "vitrine: " and the message to stderr, as one line of plain text (as_plain_text()).
+// Ignores errors of stderr.
 void print_fault(std::string_view message);
 // Prints a message that is not an error to stderr: "vitrine: note: " and the message.
 void print_note(std::string_view message);
 
-// Returns the estimated time left, such as "about 40 s left". `fraction` (0..1) of the work took
-// `seconds`, and `since` seconds have passed since then. Returns an empty text if there is no
-// estimate yet or no work is left.
+// Returns the estimated time left, such as "about 40 s left". The share `fraction` (0..1) of the
+// work took `seconds`; `since` seconds have passed since that was measured. Returns an empty text
+// if there is no estimate yet or no work is left.
 std::string time_left(double seconds, double fraction, double since);
 
 // A progress bar with the estimated time left. It is drawn on stderr, but only if stderr is a
@@ -41,7 +49,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  ProgressReport report();  // valid while the bar exists
+  ProgressReport report();  // the result is valid while the bar exists
 
  private:
   using Clock = std::chrono::steady_clock;

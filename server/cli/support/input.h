@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens and maps input files.
+// Opens and maps input files, or reads standard input.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "codec/core/expected.h"
 
 namespace vitrine::server::cli {
+
+// The name of standard input, as an input, and of standard output, as an output.
+inline constexpr std::string_view kStandardStream = "-";
+
+// Returns how messages name an input: its path, or "standard input".
+std::string input_name(const std::string& path);
 
 // Fails if writing `out` would overwrite the input `path`, since there may be no second copy of a
 // scan.
@@ -18,7 +25,8 @@ Expected<void> check_distinct(const std::string& path, const std::string& out);
 class InputFile {
  public:
   // Maps a file. Fails if it is missing, unreadable or not a regular file (kIo), or empty
-  // (kBadInput).
+  // (kBadInput). kStandardStream reads standard input to its end into memory; fails (kLimit) if it
+  // has more than 4 GiB.
   static Expected<InputFile> open(const std::string& path);
   // Like open(), but also fails (kBadInput) for a .pmesh file.
   static Expected<InputFile> open_mesh(const std::string& path);
@@ -32,6 +40,8 @@ class InputFile {
   bool is_pmesh() const;
 
  private:
+  static Expected<InputFile> map(int fd, const std::string& name);
+
   explicit InputFile(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   std::span<const std::uint8_t> bytes_;

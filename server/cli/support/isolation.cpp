@@ -8,16 +8,18 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <sstream>
 
 #include "server/cli/support/console.h"
+#include "server/cli/support/input.h"
 
 namespace vitrine::server::cli {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Returns the limits of the sandbox. It may use all memory of the machine: users wait for their own
-// commands and can stop them.
+// Returns the limits of the sandbox. The sandbox may use all memory of the machine, because users
+// run these commands for themselves and can stop them.
 SandboxLimits limits(const SpillOptions& spill) {
   const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
   const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -63,6 +65,8 @@ Bytes pack(const Product& product) {
            bytes_of(product.report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
   add_part(bytes, bytes_of(product.page));
   add_part(bytes, product.file);
+  for (const MeshFile& companion : product.companions)
+    add_part(bytes, bytes_of(companion.name)), add_part(bytes, companion.bytes);
   return bytes;
 }
 
@@ -73,6 +77,12 @@ tl::expected<Product, Fault> unpack(std::span<const std::uint8_t> bytes) {
                   {file->begin(), file->end()},
                   {page->begin(), page->end()}};
   if (!product.report.is_object()) return failed(std::string(kNoAnswer));
+  while (!bytes.empty()) {
+    const auto name = take_part(bytes), content = take_part(bytes);
+    if (!name || !content) return failed(std::string(kNoAnswer));
+    product.companions.push_back(
+        {{name->begin(), name->end()}, {content->begin(), content->end()}});
+  }
   return product;
 }
 
@@ -95,10 +105,13 @@ tl::expected<Product, Fault> isolate(
     const std::string& subject, const std::function<Expected<Product>(const ProgressReport&)>& task,
     const SpillOptions& spill) {
   const auto answer = answer_to(task, spill);
-  if (!answer) return failed(fmt::format("{}: {}", subject, answer.error().message));
+  if (!answer) return failed(fmt::format("{}: {}", input_name(subject), answer.error().message));
   auto product = unpack(*answer);
-  if (product && product->report.contains("note"))
-    print_note(product->report["note"].get<std::string>());
+  if (product && product->report.contains("note")) {
+    std::istringstream notes(product->report["note"].get<std::string>());
+    for (std::string note; std::getline(notes, note);)
+      print_note(note);
+  }
   return product;
 }
 

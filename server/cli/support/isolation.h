@@ -6,15 +6,17 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "codec/export/write_mesh.h"
 #include "server/cli/support/outcome.h"
 #include "server/sandbox/sandbox.h"
 
 namespace vitrine::server::cli {
 
 struct Product {
-  nlohmann::json report;  // the results; isolate() prints the member "note", if there is one
+  nlohmann::json report;           // the results; isolate() prints each line of the member "note"
   std::vector<std::uint8_t> file;  // content of the output file; may be empty
   std::string page = {};           // content of the report page; may be empty
+  std::vector<MeshFile> companions = {};  // files beside the output file; their names are untrusted
 };
 
 // Runs `task` in the sandbox. Error messages begin with `subject`, which names the input.

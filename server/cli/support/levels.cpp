@@ -7,23 +7,15 @@
 
 namespace vitrine::server::cli {
 
-std::string bound_text(double bound) {
-  constexpr double kHalfOfLastDigit = 5e-5;
-  const std::string nearest = fmt::format("{:.5g}", bound);
-  if (std::strtod(nearest.c_str(), nullptr) >= bound) return nearest;
-  return fmt::format("{:.5g}", bound * (1 + kHalfOfLastDigit));
-}
-
 std::string lattice_text(const Manifest& m) {
   return fmt::format("{} bits, step {:.6g} {}", m.lattice.bits, m.lattice.step,
                      m.unit.empty() ? "units" : m.unit);
 }
 
 nlohmann::json bytes_json(const Manifest& m) {
-  return {{"total", m.file_bytes},
-          {"base", m.base_length},
-          {"layers", m.file_bytes - m.head_bytes()},
-          {"header", m.base_offset}};
+  return {{"total", m.file_bytes},        {"base", m.base_length},
+          {"layers", m.chunk_bytes()},    {"header", m.base_offset},
+          {"texture", m.texture.bytes()}, {"optional", m.optional_bytes()}};
 }
 
 nlohmann::json levels_json(const Manifest& m) {

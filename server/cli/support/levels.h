@@ -5,19 +5,16 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "codec/format/bound_text.h"
 #include "codec/format/manifest.h"
 
 namespace vitrine::server::cli {
 
 // Returns a text such as "12 bits, step 0.02 mm".
 std::string lattice_text(const Manifest& manifest);
-// Returns sizes in bytes: total, base, layers, header.
+// Returns sizes in bytes: total, base, layers, header, texture (atlas and pictures).
 nlohmann::json bytes_json(const Manifest& manifest);
 nlohmann::json levels_json(const Manifest& manifest);
 std::string levels_text(const Manifest& manifest);
-
-// Formats an error bound with five digits, rounded up, so that `decode --error` accepts the printed
-// value.
-std::string bound_text(double bound);
 
 }  // namespace vitrine::server::cli

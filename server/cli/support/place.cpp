@@ -14,7 +14,8 @@ namespace vitrine::server::cli {
 
 namespace {
 
-// Reads `text` as the path of a configuration file. Returns nullopt if it is not a regular file.
+// Reads the settings from the configuration file at the path `text`. Returns nullopt if there is no
+// regular file.
 Expected<std::optional<Settings>> settings_in(const std::string& text) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(text, unknown)) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flags of the processing that makes a mesh from a scan's pictures.
+// Defines the command-line flags for the processing that makes a mesh from a scan's pictures.
 #pragma once
 
 #include "acquisition/session/processing.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flags for properties that a mesh file does not state: its unit and its upward axis.
+// Defines the command-line flags for properties that a mesh file does not state, such as its unit
+// and its upward axis, and for its format.
 #pragma once
 
-#include "codec/import/read_mesh.h"
+#include "codec/import/formats.h"
 #include "server/cli/support/arguments.h"
 
 namespace vitrine::server::cli {
@@ -12,7 +13,20 @@ inline constexpr Flag kUnitFlag = {"--unit", "mm|cm|m|in",
 inline constexpr Flag kUpFlag = {
     "--up", "y|z", "axis of IN that points up (default y); the result always has y up"};
 
-// Reads the flags; the command must declare one of them or both.
+inline constexpr FixedText kImportChoice = join(
+    kImportFormats, [](const ImportFormat& format) { return format.extension; }, "|", "|");
+inline constexpr Flag kFormatFlag = {
+    "--format", kImportChoice,
+    "format that IN must have, for example to check standard input (default: by its content)"};
+
+// Reads kFormatFlag. Returns null if it is absent.
+tl::expected<const ImportFormat*, Fault> stated_format(const Arguments& arguments);
+
+// Fails (kBadInput) if the mesh has another format than `stated`. A package passes. Must run in the
+// sandbox if the bytes are untrusted.
+Expected<void> check_format(std::span<const std::uint8_t> mesh, const ImportFormat* stated);
+
+// Reads kUnitFlag and kUpFlag; the command must declare one of them or both.
 tl::expected<ReadOptions, Fault> reading_options(const Arguments& arguments);
 
 // Returns a note if `options` states another unit than the mesh file. Otherwise returns an empty

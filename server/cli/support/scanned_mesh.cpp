@@ -6,23 +6,25 @@
 #include <filesystem>
 
 #include "codec/files/atomic_file.h"
+#include "server/cli/support/output.h"
 
 namespace vitrine::server::cli {
 
 using nlohmann::json;
 
-tl::expected<MeshFormat, Fault> scan_output(const std::string& out) {
+tl::expected<MeshFormat, Fault> scan_output(const Arguments& arguments) {
+  const std::string out = arguments.text("-o");
   if (out.empty()) return misused("-o is missing; name the output file");
   const auto format = format_of_extension(std::filesystem::path(out).extension().string());
   if (!format)
     return misused(fmt::format("cannot tell the output format from its name; use one of {}",
                                std::string_view(kExportSuffixes)));
-  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
+  if (const auto free = check_output(arguments, out); !free) return failed(free.error());
   return *format;
 }
 
 CommandOutcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::string& out) {
-  const auto file = write_mesh(mesh, format, "mm");
+  const auto file = write_mesh(mesh, format, {.unit = "mm"});
   if (!file) return failed(file.error());
   if (const auto written = write_file_atomically(out, *file); !written)
     return failed(written.error());

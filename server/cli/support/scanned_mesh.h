@@ -7,13 +7,14 @@
 
 #include "acquisition/session/scan_request.h"
 #include "codec/export/write_mesh.h"
+#include "server/cli/support/arguments.h"
 #include "server/cli/support/outcome.h"
 
 namespace vitrine::server::cli {
 
-// Returns the mesh format for the extension of `out`. Fails if no mesh can be written in that
-// format or `out` cannot be written.
-tl::expected<MeshFormat, Fault> scan_output(const std::string& out);
+// Returns the mesh format for the extension of the file that -o names. Fails if no mesh can be
+// written in that format, and if check_output() does.
+tl::expected<MeshFormat, Fault> scan_output(const Arguments& arguments);
 
 CommandOutcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::string& out);
 

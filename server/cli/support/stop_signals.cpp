@@ -19,8 +19,8 @@ void note(int signal) {
 }
 
 // Whether to leave a signal ignored. Returns true for SIGHUP if nohup has made the process ignore
-// it. Shells make background commands ignore SIGINT; that signal is handled nevertheless, since it
-// may be sent on purpose.
+// it. Returns false for SIGINT, which shells make background commands ignore, because a user may
+// send it on purpose.
 bool is_left_ignored(int signal) {
   struct sigaction now {};
   ::sigaction(signal, nullptr, &now);

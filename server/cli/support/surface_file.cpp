@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/cli/support/surface_file.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "codec/build/exported_texture.h"
 #include "codec/build/open_model.h"
 #include "codec/import/read_drc.h"
 #include "codec/mesh/unit.h"
@@ -8,24 +12,22 @@
 namespace vitrine::server::cli {
 namespace {
 
-// Whether a reader states this reason for vertex colours without materials or pictures. A texturing
-// has them nevertheless.
-bool is_about_colours(std::string_view reason) {
-  return reason.starts_with("the vertices ") || reason.starts_with("only one ");
+// Returns the lines of a reader's report about materials and pictures that the texturing lacks.
+// Such lines contain " not carried: " and a reason.
+std::vector<std::string> not_carried(const ImportedMesh& imported) {
+  std::vector<std::string> lines;
+  std::ranges::copy_if(imported.repairs, std::back_inserter(lines), [](const std::string& line) {
+    return line.find(" not carried: ") != line.npos;
+  });
+  return lines;
 }
 
-// Returns the lines of a reader's report about materials and pictures that the texturing lacks.
-// These lines state a reason.
-std::vector<std::string> not_carried(const ImportedMesh& imported) {
-  constexpr std::string_view kMark = " not carried: ";
-  std::vector<std::string> lines;
-  for (const std::string& line : imported.repairs) {
-    const std::size_t at = line.find(kMark);
-    if (at == line.npos) continue;
-    const auto reason = std::string_view(line).substr(at + kMark.size());
-    if (imported.texturing.empty() || !is_about_colours(reason)) lines.push_back(line);
-  }
-  return lines;
+// Returns the finest pictures of a model, or an empty Texturing if it has none.
+Expected<Texturing> finest_texturing(const Refiner& refiner, std::span<const std::uint8_t> pmesh) {
+  const Manifest& manifest = refiner.manifest();
+  const auto pictures = pictures_to_export(manifest, refiner.face_count(), std::nullopt);
+  return texturing_to_export(refiner, pictures,
+                             [&](std::size_t i) { return picture_of(manifest, pmesh, i); });
 }
 
 Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& reading,
@@ -49,7 +51,12 @@ Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& read
   const WantLevel finest{static_cast<std::uint32_t>(manifest.levels.size() - 1)};
   const auto refined = refine(*refiner, finest, chunks_of(manifest, file.bytes()));
   if (!refined) return tl::unexpected(refined.error());
-  return SurfaceInput{.mesh = refiner->display_mesh(), .unit = manifest.unit};
+  SurfaceInput surface{.mesh = refiner->display_mesh(), .unit = manifest.unit};
+  if (parts == SurfaceParts::kShape) return surface;
+  auto texturing = finest_texturing(*refiner, file.bytes());
+  if (!texturing) return tl::unexpected(texturing.error());
+  surface.texturing = std::move(*texturing);
+  return surface;
 }
 
 }  // namespace

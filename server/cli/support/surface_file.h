@@ -20,8 +20,8 @@ enum class SurfaceParts : std::uint8_t { kShape, kLooks };
 struct SurfaceInput {
   TriangleMesh mesh;
   std::string unit;  // empty if unknown
-  // Empty for a .pmesh and with kShape. Readers also bake its factors and maps into the vertex
-  // colours.
+  // Empty for a .pmesh file, and if only kShape was requested. Readers also apply the texturing's
+  // factors and maps to the vertex colours.
   Texturing texturing;
   // One line for each kind of material or picture in the file that `texturing` lacks.
   std::vector<std::string> not_carried;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "codec/core/limits.h"
-#include "codec/render/shown_pictures.h"
+#include "codec/render/material_pictures.h"
 
 namespace vitrine::server::cli {
 namespace {
@@ -27,7 +27,7 @@ void apply_colours_once(SurfaceInput& surface) {
 
 Expected<std::unique_ptr<Textures>> take_textures(SurfaceInput& surface) {
   if (surface.texturing.empty()) return nullptr;
-  auto pictures = decode_shown_pictures(surface.texturing, Limits{}.pixels);
+  auto pictures = decode_pictures(surface.texturing, kShownMaps, Limits{}.pixels);
   if (!pictures) return tl::unexpected(pictures.error());
   apply_colours_once(surface);
   return std::make_unique<Textures>(std::move(surface.texturing), *std::move(pictures));

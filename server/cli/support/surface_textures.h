@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The textures of a surface, ready for the renderer.
+// Prepares the textures of a surface for the renderer.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,13 @@
 
 namespace vitrine::server::cli {
 
-// Takes the texturing out of `surface` and decodes its pictures. Returns null if it is empty. Must
-// run in the sandbox if the bytes are untrusted. Fails if a picture cannot be decoded, or if all
-// have more pixels than Limits allows.
+// Takes the texturing out of `surface` and decodes its pictures. Returns null if the texturing is
+// empty. Must run in the sandbox if the bytes are untrusted. Fails if a picture cannot be decoded,
+// or if the pictures together have more pixels than Limits allows.
 //
-// A renderer multiplies vertex colours, factors and maps, but readers bake factors and maps into
-// the vertex colours. So this function removes the vertex colours if a base colour has a map, or
-// else the factors.
+// Readers bake factors and maps into the vertex colours, so a renderer that multiplies all three
+// would apply them twice. Therefore this function removes the vertex colours if a base colour has a
+// map, and otherwise the factors.
 Expected<std::unique_ptr<Textures>> take_textures(SurfaceInput& surface);
 
 }  // namespace vitrine::server::cli

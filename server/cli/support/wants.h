@@ -9,9 +9,9 @@
 
 namespace vitrine::server::cli {
 
-// Returns the target given by --level, --triangles, --bytes or --error, as far as the command
-// declares them. Returns nullopt if none is given, which means the finest level. Fails if several
-// are given.
+// Reads those of the flags --level, --triangles, --bytes and --error that the command declares, and
+// returns the target that the user gives. Returns nullopt if none is given, which means the finest
+// level. Fails if several are given.
 tl::expected<std::optional<Want>, Fault> read_want(const Arguments& arguments);
 
 // Fails with kState if the model has no level as coarse or as fine as the target requires.

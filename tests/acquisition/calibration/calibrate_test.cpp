@@ -24,8 +24,8 @@ struct TruthError {  // rms errors over the map's hull, in mm
   double radial = 0, tangential = 0, axial = 0;
 };
 
-// Returns the errors of the positions that this calibration gives for a grid of pixels. Mean height
-// and mean angle are ignored, because their origins are arbitrary.
+// Returns the errors of the positions that the calibration `c` gives for a grid of pixels. The mean
+// height and the mean angle are subtracted, because their origins are arbitrary.
 TruthError error_of(const SyntheticScanner& scanner, const Calibration& c) {
   double radial = 0, tangential = 0, tangential_sum = 0, axial = 0, axial_sum = 0, swings = 0;
   int count = 0;
@@ -61,7 +61,7 @@ TruthError error_of(const SyntheticScanner& scanner, const Calibration& c) {
       .axial = std::sqrt(std::max(0.0, axial / count - mean * mean))};
 }
 
-// Returns a calibration that is computed once and used by most tests here.
+// Returns a calibration, which is computed once and used by most tests in this file.
 const Expected<Calibrated>& calibrated() {
   static const Expected<Calibrated> result = calibrate(SyntheticScanner().pictures(4, 9, {}), {});
   return result;
@@ -82,7 +82,8 @@ TEST(Calibrate, RecoversTheScannerFromNoisyPictures) {
   EXPECT_LT(error.radial, 0.01);
   EXPECT_LT(error.tangential, 0.005);
   EXPECT_LT(error.axial, 0.01);
-  // The laser passes beside the axis and is inclined to it, so [WLL] eq. 1 alone would be wrong.
+  // The laser plane is inclined to the axis and does not contain it. [WLL] eq. 1 assumes that the
+  // plane contains the axis, so a calibration by this equation alone would be wrong.
   Calibration in_plane = c;
   in_plane.axis.offset = in_plane.axis.tilt = 0;
   EXPECT_GT(error_of(SyntheticScanner(), in_plane).axial, 0.05);
@@ -110,7 +111,7 @@ TEST(Calibrate, BearsCornersAndStripePointsThatAreFarOff) {
   const TruthError error = error_of(scanner, result->calibration);
   EXPECT_LT(error.radial, 0.02);
   EXPECT_LT(error.axial, 0.02);
-  // Without the strays, which are a fifth of all points, the noise is 0.012.
+  // The noise is 0.012 mm without the strays, which are a fifth of all points.
   EXPECT_LT(result->calibration.noise, 0.03);
 }
 
@@ -176,7 +177,7 @@ TEST(Calibrate, ReportsWhatHeldOutPosesSay) {
   const auto& [c, report] = *calibrated();
   EXPECT_EQ(report.pictures, 36);
   EXPECT_EQ(report.held_out.size() > report.points * 9 / 10, true);
-  // Noise of 0.05 pixels is 0.012 mm here; the map's residuals include it.
+  // The stripe's noise of 0.05 pixels is 0.012 mm here. The map's residuals contain this noise.
   EXPECT_NEAR(c.noise, 0.012, 0.002);
   EXPECT_GT(c.residuals.rms, 0.008);
   EXPECT_LT(c.residuals.rms, 0.03);
@@ -315,7 +316,7 @@ TEST(Calibrate, RefusesTooFewMeasuredPosesAndUnknownDegrees) {
   EXPECT_THAT(
       message(std::span(points).first(26), 3),
       HasSubstr("the points have 2 different pose numbers, a calibration needs at least 3"));
-  std::vector<Correspondence> apart;  // each pose lies outside the hull of the others
+  std::vector<Correspondence> apart;  // points of each pose lie outside the hull of the other poses
   for (int i = 0; i < 75; ++i) {
     const int pose = i / 25;
     const double u = 40 * (i % 5) + 900 * (pose % 2), v = 40 * (i / 5 % 5) + 700 * (pose / 2);

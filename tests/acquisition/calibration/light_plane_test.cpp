@@ -17,8 +17,8 @@ CameraModel camera() {
   return {cv::Matx33d(3000, 0, 650, 0, 3000, 515, 0, 0, 1), {}};
 }
 
-// Returns points scattered over the plane through (0, 0, 350). Every fifth point is `stray` mm off
-// that plane.
+// Returns points scattered over the plane through (0, 0, 350) with the given normal. Every fifth
+// point is `stray` mm away from the plane.
 std::vector<LaserPoint> points_on(const cv::Vec3d& normal, double stray) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> anywhere(-40, 40);

@@ -13,8 +13,8 @@ using testing::HasSubstr;
 
 constexpr int kColumns = 1300, kRows = 1030;
 
-// Returns the true position in a laser plane that is seen at 30 degrees. Together, x and y have all
-// kinds of cubic terms, with small coefficients.
+// Returns the true position in a laser plane that is seen at 30 degrees. x and y together contain
+// every kind of cubic term, with small coefficients.
 PlanePoint truth(double u, double v) {
   const double s = u / 650 - 1, t = v / 515 - 1;
   return {60 * s + 4 * s * t - 1.5 * s * s * s + 0.3 * s * s * t + 2,
@@ -50,7 +50,7 @@ TEST(PlaneMap, IsFittedInNormalisedCoordinates) {
   const auto map = PlaneMap::fit(grid(200, 1100, 0, 1029), 3, kColumns, kRows);
   ASSERT_TRUE(map);
   EXPECT_GT(map->condition(), 1);
-  EXPECT_LT(map->condition(), 12);  // without normalised coordinates it would be above 1e8
+  EXPECT_LT(map->condition(), 12);  // above 1e8 if coordinates were not normalised
 }
 
 TEST(PlaneMap, RefusesPointsOutsideTheHullOfWhatItSaw) {

@@ -65,11 +65,11 @@ std::vector<ImagePoint> SyntheticScanner::corners(const cv::Affine3d& pose) cons
   return all;
 }
 
-// Returns the image of the line in which the laser's plane meets the target.
+// Returns the image of the line in which the laser plane cuts the target.
 std::vector<ImagePoint> SyntheticScanner::stripe(const cv::Affine3d& pose) const {
   const cv::Vec3d face = pose.rotation() * cv::Vec3d(0, 0, 1), centre = pose.translation();
   const cv::Vec3d along = cv::normalize(face.cross(normal_));
-  cv::Vec3d on;  // a point in both planes, at the camera's height
+  cv::Vec3d on;  // a point in the laser plane and the target's plane, at the camera's height
   cv::solve(cv::Matx33d(face[0], face[1], face[2], normal_[0], normal_[1], normal_[2], 0, 1, 0),
             cv::Vec3d(face.dot(centre), normal_.dot(on_axis_) + beside_, 0), on);
   std::vector<ImagePoint> all;
@@ -87,8 +87,8 @@ CalibrationInput SyntheticScanner::pictures(int placements, int angles,
   const CharucoTarget t = target();
   CalibrationInput input{"CAM-1", {0, 0, kWidth, kHeight}, t, {}};
   for (int placement = 0; placement < placements; ++placement) {
-    // Places the target's centre beside the axis. Its x points to the right, its y downwards or
-    // upwards.
+    // Places the target's centre beside the axis. The target's x points to the right, its y
+    // downwards or upwards.
     const double beside = placements == 1 ? 10 : -20 + 40.0 * placement / (placements - 1);
     const cv::Affine3d shift(cv::Matx33d::eye(), {-4.0 * t.squares_x, -4.0 * t.squares_y, 0});
     const cv::Affine3d lean(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner whose every parameter is known: camera with distortion, laser plane, table.
+// A simulated scanner with known parameters: camera with lens distortion, laser plane, and table.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -25,8 +25,8 @@ class SyntheticScanner {
   static constexpr int kWidth = 1300, kHeight = 1030;
   static CharucoTarget target();
 
-  // Returns pictures of `placements` placements of the target on the table. Each is shown at
-  // `angles` angles around the one at which it faces the camera.
+  // Returns pictures of `placements` placements of the target on the table. Each placement is shown
+  // at `angles` angles of the table, around the angle at which the target faces the camera.
   CalibrationInput pictures(int placements, int angles, const ScannerNoise& noise) const;
 
   // Returns the point of the laser plane that a pixel sees, in mm in the camera's frame.
@@ -46,10 +46,10 @@ class SyntheticScanner {
   double sense_;
   cv::Matx33d matrix_{3020, 0, 660, 0, 3015, 505, 0, 0, 1};
   cv::Vec4d distortion_{-0.12, 0.15, 0.0006, -0.0004};
-  // The table's axis points upwards, slightly inclined, 345 mm away.
+  // The table's axis points upwards, slightly inclined, at a distance of 345 mm.
   cv::Vec3d up_ = cv::normalize(cv::Vec3d(0.01, -1, 0.15)), on_axis_{1.5, 3, 345};
-  // The laser's plane passes 0.4 mm beside the axis and is inclined to it. It is 28 degrees from
-  // the view.
+  // The laser plane passes the axis at a distance of 0.4 mm and is inclined to it. The angle
+  // between plane and viewing direction is 28 degrees.
   cv::Vec3d normal_ = cv::normalize(cv::Vec3d(0.88, 0.02, -0.47));
   double beside_ = 0.4;
 };

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 const CharucoTarget kTarget{
     .squares_x = 9, .squares_y = 12, .square_mm = 8, .marker_mm = 6, .dictionary = "DICT_4X4_100"};
 
-// The target as OpenCV draws it, seen in perspective, slightly out of focus and noisy.
+// A picture of the target drawn by OpenCV: in perspective, slightly out of focus and noisy.
 struct Picture {
   Frame frame{1300, 1030, {}};
   cv::Matx33d from_mm;

@@ -87,6 +87,32 @@ TEST_P(EveryBoard, TurnsAndLights) {
   EXPECT_NEAR(rig_.table() - before, -30, 360.0 / 3200);
 }
 
+TEST_P(EveryBoard, RecordsWhatLaserAndMotorDo) {
+  ASSERT_EQ(rig_.ask("plug " + name()), "ok");
+  BoardOptions options = quick();
+  EXPECT_EQ(options.power->read().laser, LaserState::kUnknown);
+  auto board = open_board(selector_of(GetParam().dialect, GetParam().transport), options);
+  ASSERT_TRUE(board) << board.error().message;
+  const auto is = [&](LaserState laser, MotorState motor) {
+    return options.power->read().laser == laser && options.power->read().motor == motor;
+  };
+  EXPECT_TRUE(is(LaserState::kOff, MotorState::kOff));
+  ASSERT_TRUE((*board)->laser(true));
+  EXPECT_TRUE(is(LaserState::kOn, MotorState::kOff));
+  ASSERT_TRUE((*board)->turn_to(5));
+  EXPECT_TRUE(is(LaserState::kOn, MotorState::kHolding));
+  ASSERT_TRUE((*board)->laser(false));
+  EXPECT_TRUE(is(LaserState::kOff, MotorState::kHolding));
+  ASSERT_TRUE((*board)->rest());
+  EXPECT_TRUE(is(LaserState::kOff, MotorState::kOff));
+  ASSERT_TRUE((*board)->turn_to(10));
+  ASSERT_TRUE((*board)->laser(true));
+  (*board)->emergency_stop();
+  EXPECT_TRUE(is(LaserState::kOff, MotorState::kOff));
+  EXPECT_FALSE((*board)->laser(true));
+  EXPECT_TRUE(is(LaserState::kOff, MotorState::kOff));
+}
+
 TEST_P(EveryBoard, WaitsForATableThatTurnsSlowly) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 40"), "ok");
   auto board = open();
@@ -124,7 +150,7 @@ TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
   ASSERT_EQ(rig_.ask("plug " + name()), "ok");
   const double before = rig_.table();
   double at = 0;
-  // For a FabScan, these angles are 4.4, 8.9 and 13.3 motor steps.
+  // A FabScan rounds these angles, which are 4.4, 8.9 and 13.3 motor steps.
   for (const double next : {0.5, 1.0, 1.5}) {
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
@@ -144,7 +170,9 @@ TEST_P(EveryBoard, TellsItsFirmwareEachTimeItIsOpened) {
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     EXPECT_EQ((*board)->identity().firmware, banner);
-    ASSERT_TRUE((*board)->set_position(0));  // later openings do not restart the Horus board
+    // A board with a known position is not restarted when it is opened again, so it keeps the
+    // position.
+    ASSERT_TRUE((*board)->set_position(0));
   }
 }
 
@@ -210,7 +238,7 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
 TEST_P(EveryBoard, StaysOffWhenACallBeginsAsItIsStopped) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   for (int i = 0; i < 10; ++i) {
-    // open() succeeds only after the previous board's guardian has switched the board off.
+    // open() succeeds only after the guardian of the previous board has switched that board off.
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     std::thread turning([&] { (void)(*board)->turn_to(3600); });
@@ -337,7 +365,8 @@ TEST(Board, IsFoundBySerialNumberAndByPort) {
   EXPECT_TRUE(open_board(selector, quick()));
 }
 
-// A guardian that logs its input: the board to guard, and the word that dismisses the guardian.
+// A guardian that logs its input: its arguments, which name the board to guard, and the word that
+// dismisses it.
 class WritingGuardian {
  public:
   WritingGuardian() {

@@ -16,7 +16,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// A GigE Vision camera on loopback whose n-th frame is filled with n.
+// A GigE Vision camera on loopback. All pixels of its n-th frame have the value n.
 class SimulatedCamera {
  public:
   explicit SimulatedCamera(const char* address)
@@ -43,7 +43,8 @@ class SimulatedCamera {
     ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(camera_);
     EXPECT_TRUE(arv_fake_camera_write_register(fake, static_cast<guint32>(address), value));
   }
-  // Loses the share `part` of all packets, the same ones in each run. No packet is sent again.
+  // Loses the share `part` of all packets, the same packets in each run. Lost packets are not sent
+  // again.
   void lose_packets(double part) {
     g_random_set_seed(1);
     g_object_set(camera_, "gvsp-lost-ratio", part, nullptr);
@@ -108,8 +109,8 @@ TEST_F(CameraTest, WhoseFramesAllLosePacketsIsAnError) {
       << frame.error().message;
 }
 
-// Another client changes the camera's settings, so that a frame has as many bytes but another
-// shape.
+// Another client changes the camera's settings. A frame then has as many bytes as before but
+// another width and height.
 TEST_F(CameraTest, WhoseFramesHaveAnotherShapeOrFormatIsAnError) {
   SimulatedCamera simulated(kAddress);
   auto camera = open_camera({.address = kAddress});
@@ -172,7 +173,8 @@ TEST_F(CameraTest, ThatIsGoneIsAnErrorAndIsOpenedAnewWhenItIsBack) {
   EXPECT_TRUE((*camera)->capture());
 }
 
-// A client repeats an unacknowledged trigger. A camera that comes back too early would execute it.
+// A client repeats an unacknowledged trigger. A camera that is plugged in again too early would
+// execute that trigger.
 TEST_F(CameraTest, ThatIsGoneIsTriggeredNoMoreOnceTheRigPutsItsCableBack) {
   auto simulated = std::make_unique<SimulatedCamera>(kAddress);
   auto camera = open_camera({.address = kAddress});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// drive_board VENDOR PRODUCT COMMAND…: opens a Horus board and executes the commands set:DEGREES,
-// turn:DEGREES, laser:on, laser:off, where, unplugged (turns until the board is gone) and die (like
-// kill -9). Prints one line for each completed command.
+// drive_board VENDOR PRODUCT COMMAND…: opens a Horus board and executes commands: set:DEGREES,
+// turn:DEGREES, laser:on, laser:off, where, unplugged (turns until the board is gone) and die
+// (kills this process, like kill -9). Prints one line for each completed command.
 #include <fmt/format.h>
 #include <signal.h>
 

@@ -18,7 +18,7 @@ TEST(SerialChip, IsKnownByItsNumbers) {
   EXPECT_EQ(chip_by_id(0x2341, 0x0043), std::nullopt);
 }
 
-// The expected values are those that the Linux drivers use for these chips.
+// The expected values are those of the Linux drivers for these chips.
 TEST(SerialChip, IsSetToTheBaudRatesOfTheDialects) {
   EXPECT_EQ(set_up(SerialChip::kFtdi, 115200, 0)[1], (ControlRequest{0x40, 3, 0x001a, 0}));
   EXPECT_EQ(set_up(SerialChip::kFtdi, 57600, 0)[1], (ControlRequest{0x40, 3, 0xc034, 0}));

@@ -22,7 +22,7 @@ using rig::UsbTransport;
 
 struct Rule {
   std::string text;
-  std::vector<int> vendor, products;  // empty means any number
+  std::vector<int> vendor, products;  // an empty list means any number
 
   bool allows(int of, int product) const {
     const auto names = [](const std::vector<int>& ids, int id) {
@@ -32,7 +32,7 @@ struct Rule {
   }
 };
 
-// Returns the values of a match such as ATTR{key}=="6001|6015".
+// Returns the numbers that a match permits: 6001 and 6015 for ATTR{key}=="6001|6015".
 std::vector<int> ids_in(const std::string& line, const std::string& key) {
   std::vector<int> ids;
   const std::string begin = "ATTR{" + key + "}==\"";

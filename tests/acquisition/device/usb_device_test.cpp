@@ -12,8 +12,8 @@ using testing::HasSubstr;
 
 constexpr char kClosed[] = "may not be opened";
 
-// Returns devices with these serial numbers, in this order. A null stands for a device that cannot
-// be opened.
+// Returns devices with these serial numbers, in this order. A null pointer stands for a device that
+// cannot be opened.
 std::vector<Expected<UsbDevice>> devices(std::initializer_list<const char*> serials) {
   std::vector<Expected<UsbDevice>> all;
   for (const char* serial : serials) {

@@ -6,8 +6,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Returns a calibration with 0.1 mm for each pixel, from (100, 100) to (300, 500): x = (u - 200) /
-// 10 and y = (500 - v) / 10.
+// Returns a calibration for the pixels from (100, 100) to (300, 500), at 0.1 mm per pixel: x = (u -
+// 200) / 10 and y = (500 - v) / 10.
 Calibration known(const TurntableAxis& axis = {}) {
   std::vector<Correspondence> points;
   for (int v = 100; v <= 500; v += 50) {

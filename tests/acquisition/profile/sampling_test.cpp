@@ -56,8 +56,8 @@ TEST(PaperSampling, ABlockWithAPointBeyondThreeSigmaStaysAsItIs) {
   EXPECT_EQ(kept.points[15].at.rho, 10);
 }
 
-// No value deviates from the mean by more than (n - 1) / sqrt(n) standard deviations. That is less
-// than 3 up to n = 10, so outliers are averaged in.
+// No value deviates from the mean by more than (n - 1) / sqrt(n) standard deviations. Up to n = 10,
+// that is less than 3, so outliers are averaged too.
 TEST(PaperSampling, UpToTenPointsNothingIsEverBeyondThreeSigma) {
   for (const int length : {5, 10}) {
     std::vector<double> rho(100, 10);
@@ -69,7 +69,8 @@ TEST(PaperSampling, UpToTenPointsNothingIsEverBeyondThreeSigma) {
   }
 }
 
-// Partial last blocks make the ratio a little larger than 1 / L. [WLL] table 1 has .2046 and .2012.
+// The last block may have fewer points, so the ratio is a little larger than 1 / L. [WLL] table 1
+// has .2046 and .2012.
 TEST(PaperSampling, KeepsAFifthAtFive) {
   std::mt19937_64 random(3);
   std::size_t before = 0, after = 0;
@@ -171,8 +172,8 @@ TEST(AdaptiveSampling, KeepsTheEndsAndDoesNotCrossThem) {
   EXPECT_EQ(kept.points[3].flags, 0);
 }
 
-// A polyline through means lies on the inner side of a bend. Its error is a quarter larger than
-// necessary.
+// A polyline through the means of points lies on the inner side of a bend, and its error is a
+// quarter larger than necessary.
 TEST(AdaptiveSampling, LiesInTheMiddleOfABend) {
   std::vector<double> round;
   for (int i = -100; i <= 100; ++i)
@@ -189,7 +190,8 @@ TEST(AdaptiveSampling, LiesInTheMiddleOfABend) {
   EXPECT_LT(std::abs(sum / static_cast<double>(kept.points.size() - 1)), .6 * sagitta);
 }
 
-// A flat profile needs few points, so a detailed profile gets more.
+// A flat profile needs few points, so a detailed profile gets the points that the flat one does not
+// need.
 TEST(AdaptiveSampling, SharesPointsAmongProfiles) {
   std::vector<double> rough(200, 30);
   for (std::size_t i = 0; i < rough.size(); i += 3)

@@ -13,7 +13,7 @@ RowPeaks row_of(Peak strong, Peak weak, int valley = 0) {
   return {2, {strong, weak}, valley};
 }
 
-// Returns rows with two peaks: one in column 100, and a weaker one in column `u(row)`.
+// Returns rows with two peaks each: one in column 100, and a weaker one in column `u(row)`.
 template <class Course>
 std::vector<RowPeaks> two_surfaces(int rows, Course u) {
   std::vector<RowPeaks> peaks;
@@ -38,8 +38,8 @@ TEST(SecondPeaks, PeaksThatJumpAreNoLine) {
   EXPECT_THAT(second_peaks(rows, std::vector(20, 0)), Each(-1));
 }
 
-// From the fourth row on, the other line is chosen. The second surface then continues the line that
-// was chosen before.
+// From the fourth row on, `chosen` has the peaks of the other line. The second surface is then the
+// line that was in `chosen` before.
 TEST(SecondPeaks, ALineGoesOnWhereItIsChosen) {
   const auto rows = two_surfaces(6, [](int) { return 200; });
   EXPECT_THAT(second_peaks(rows, std::vector{0, 0, 0, 1, 1, 1}), ElementsAre(1, 1, 1, 0, 0, 0));

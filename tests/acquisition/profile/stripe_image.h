@@ -11,16 +11,14 @@ namespace vitrine::acquisition {
 
 struct StripeImage {
   int width = 320, height = 200;  // pixels of the picture
-  // Returns u for each row. NaN means no stripe in that row.
+  // Returns the stripe's u in a row, or NaN if the row has no stripe.
   std::function<double(double)> centre;
   double peak = 160, sigma = 2.5;  // grey levels at the stripe's peak; standard deviation in pixels
-  double speckle = 0;              // contrast, independent for each pixel
-  double noise = 0;                // grey levels, independent for each pixel of each picture
-  double ambient = 0;              // grey levels at full albedo, in both pictures
-  std::function<double(double, double)> albedo = [](double, double) {
-    return 1.;
-  };                                     // albedo at (u, v)
-  std::function<double(double)> second;  // centre of a second stripe
+  double speckle = 0;              // contrast of the speckle, independent for each pixel
+  double noise = 0;                // grey levels: standard deviation, independent in each picture
+  double ambient = 0;              // grey levels of ambient light at full albedo, in both pictures
+  std::function<double(double, double)> albedo = [](double, double) { return 1.; };
+  std::function<double(double)> second;  // centre of a second stripe, like `centre`
   double second_peak = 0;
   std::uint64_t seed = 1;
 };

@@ -69,8 +69,8 @@ TEST(Stripe, StaysWithinATenthOfAPixelUnderSpeckleNoiseAndAmbientLight) {
   }
 }
 
-// The paint has an edge on the stripe's flank. (An edge in the middle of the stripe shifts all
-// three methods more.)
+// The albedo changes on the stripe's flank. (A change in the middle of the stripe would shift the
+// results of all three methods more.)
 TEST(Stripe, IsMovedLessByAnAlbedoEdgeThanItsCentreOfMass) {
   const StripeImage image{.centre = [](double v) { return 155 + .005 * v; },
                           .ambient = 30,
@@ -122,7 +122,7 @@ TEST(Stripe, SaturationIsFlaggedAndDoesNotMoveThePoint) {
     EXPECT_EQ(p.flags, 0) << "row " << p.row;
 }
 
-// A reflection is stronger than the stripe in some rows.
+// In some rows, a reflection is stronger than the stripe.
 TEST(Stripe, TheOneThatContinuesItsNeighboursIsTakenAndFlagged) {
   const StripeImage image{.centre = shape,
                           .peak = 120,
@@ -158,7 +158,7 @@ TEST(Stripe, AGlintOnAFewRowsIsNoSurface) {
   EXPECT_EQ(stripe_of(image).size(), 200);
 }
 
-// The two peaks belong to one unevenly lit stripe, because it is not dark between them.
+// The two peaks belong to one unevenly lit stripe, because the image is not dark between them.
 TEST(Stripe, AStripeThatRunsAlongTheRowsIsOneSurface) {
   const StripeImage image{.centre = [](double) { return 150.; },
                           .sigma = 3,

@@ -17,7 +17,8 @@ class AtRig : public vitrine::test::VitrineCommand {
     EXPECT_TRUE(CalibrationStore(path("calibrations")).add(perfect_calibration(1)));
   }
 
-  // Runs the script under vitrine-rig in the test's folder. rig.json there describes the scanner.
+  // Runs the shell script `script` under vitrine-rig in the test's folder. The folder has a
+  // rig.json that describes the scanner.
   vitrine::test::ProgramResult at_rig(const std::string& script, std::vector<std::string> options) {
     options.insert(options.begin(), {VITRINE_BIN_DIR "/vitrine-rig", "--private-network",
                                      "--write-config", path("rig.json")});

@@ -105,7 +105,7 @@ TEST(RigCommandLine, TermEndsTheCommandAndThenTheRig) {
     ::_exit(127);
   }
   pid_t command = 0;
-  std::ifstream(ready) >> command;  // reads from the pipe until the command runs
+  std::ifstream(ready) >> command;  // blocks until the command runs and writes to the pipe
   ASSERT_GT(command, 0);
   ::kill(child, SIGTERM);
   int status = 0;
@@ -204,7 +204,7 @@ TEST(OperatorSocket, CommandsChangeWhatIsOnTheTable) {
     EXPECT_EQ(stage.now().target, 30);
     EXPECT_EQ(said(socket, "object\n"), "ok\n");
     EXPECT_EQ(stage.now().target, std::nullopt);
-    // The line is too long, so the rig closes the connection.
+    // The rig closes the connection without an answer, because the line is too long.
     EXPECT_EQ(said(socket, std::string(5000, 'x')), "");
   }
   EXPECT_FALSE(std::filesystem::exists(socket));

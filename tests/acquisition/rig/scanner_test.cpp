@@ -24,7 +24,7 @@ using BufferPtr = std::unique_ptr<ArvBuffer, Unref>;
 const std::string kAddress = "127.0.0.1";
 
 // Gives this process a network of its own, because tests run side by side and GigE Vision's port is
-// fixed. This must happen before a second thread exists (enter_private_network()).
+// fixed. enter_private_network() must be called before a second thread exists.
 class PrivateNetwork final : public ::testing::Environment {
  public:
   void SetUp() override {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests each stripe method, in a scan with the simulated rig and when its pictures are processed
-// again.
+// Tests each stripe method twice: in a scan with the simulated rig, and when the scan's pictures
+// are processed again.
 #include "at_rig.h"
 
 namespace vitrine::acquisition::rig::test {
@@ -29,7 +29,7 @@ TEST_F(StripeMethods, AScanReprocessedByAnotherOneIsTheScanByThatOne) {
   for (const char* mesh : {"usual.ply", "by_centre.ply", "blais-rioux.ply"}) {
     const auto distance = vitrine_json({"measure", path(mesh), path("truth.ply")});
     EXPECT_LT(distance["a_to_b"]["rms"].get<double>(), 0.3)
-        << mesh;  // the limit is wide, because there are so few steps
+        << mesh;  // the limit is wide, because a scan with so few steps is coarse
   }
 }
 

@@ -12,8 +12,8 @@
 namespace vitrine::acquisition::rig::test {
 namespace {
 
-// Returns the point at height z at which the middle of the sheet meets a surface, with the table at
-// 0 degrees.
+// Returns the point at height z at which the middle of the laser sheet cuts a surface, with the
+// table at 0 degrees.
 using Cut = std::function<std::optional<Vec3>(const LaserSheet&, double z)>;
 
 struct Deviation {
@@ -21,10 +21,11 @@ struct Deviation {
   int rows = 0;
 };
 
-// Compares the stripe's centre in each row with the projected cut. Deviations are in pixels.
+// Returns the deviation, in pixels, of the rendered stripe's centre from the projected cut in each
+// row.
 Deviation deviation(const Optics& optics, const Subject& subject, const Cut& cut) {
   Renderer renderer(optics, &subject, ideal());
-  const Exposure bright{.us = 8000};  // reduces rounding
+  const Exposure bright{.us = 8000};  // a longer exposure makes rounding matter less
   const Frame lit = renderer.take({at(0, true), bright});
   const Frame dark = renderer.take({at(0, false), bright});
   Deviation found;
@@ -32,7 +33,8 @@ Deviation deviation(const Optics& optics, const Subject& subject, const Cut& cut
     const auto point = cut(optics.laser, z);
     const auto pixel = point ? project(optics.camera, *point) : std::nullopt;
     if (!pixel) continue;
-    // The expected centre in the row, interpolated between the cut at `z` and a little above.
+    // The expected centre in this row, interpolated between the cut at `z` and the cut slightly
+    // higher.
     const int v = static_cast<int>(std::lround(pixel->v));
     const auto beside = project(optics.camera, *cut(optics.laser, z + 0.1));
     const double u = pixel->u + (v - pixel->v) * (beside->u - pixel->u) / (beside->v - pixel->v);
@@ -76,7 +78,7 @@ TEST(Stripe, OnABallItIsWhereTheSheetCutsTheBall) {
         const double y = sheet_y(laser, z);
         const double rest =
             kRadius * kRadius - std::pow(z - middle.z, 2) - std::pow(y - middle.y, 2);
-        if (rest < 200) return std::nullopt;  // near the poles, a row sees a long part of the cut
+        if (rest < 200) return std::nullopt;  // near the poles, a row shows much of the cut
         return Vec3{middle.x + std::sqrt(rest), y, z};
       });
   EXPECT_GT(found.rows, 70);
@@ -125,7 +127,7 @@ TEST(Stripe, WhatHidesAPointFromTheLaserLeavesItDark) {
 TEST(Stripe, ASurfaceLitFromBehindIsDark) {
   const Optics optics = optics_of(1);
   const Vec3 point{0, sheet_y(optics.laser, 40), 40};
-  // The front of this wall faces the camera but not the laser.
+  // The front of this wall faces the camera, but not the laser.
   EXPECT_EQ(light_at(optics, matt(wall({0, 0, 40}, -100, 80)), point), 0);
 }
 
@@ -195,8 +197,8 @@ TEST(Stripe, OnlyTheSkewedProfileIsSkewed) {
   EXPECT_GT(std::abs(spread_across(StripeShape::kSkewed)), 0.25);
 }
 
-// The wall lies in the middle of the sheet and has the same light everywhere, so only speckle makes
-// its pixels differ.
+// The wall lies in the middle of the sheet, and its light is the same everywhere. So its pixels
+// differ only by speckle.
 TEST(Stripe, SpeckleHasAtLeastItsContrastAndAGrainOfOneToTwoPixels) {
   class Bright final : public Subject {
    public:
@@ -214,7 +216,7 @@ TEST(Stripe, SpeckleHasAtLeastItsContrastAndAGrainOfOneToTwoPixels) {
     double ambient_light() const override { return 0; }
   };
   Optics optics = optics_of(1);
-  optics.laser.sigma = 1000;  // the sheet is equally bright everywhere
+  optics.laser.sigma = 1000;  // makes the sheet equally bright everywhere
   const LocalOptics view = optics_in({}, optics);
   const PixelRays rays(optics.camera);
   const auto light = stripe_light(view, rays, Bright(), {.speckle = 0.33}, 7);

@@ -18,7 +18,7 @@ struct Corner {
   ImagePoint at;
 };
 
-// Returns the corners that OpenCV finds in a picture without further help.
+// Returns the corners that OpenCV finds in a picture without further information.
 std::vector<Corner> detect(const Frame& frame) {
   const cv::Mat image(frame.height, frame.width, CV_8U,
                       const_cast<std::uint8_t*>(frame.pixels.data()));
@@ -41,7 +41,8 @@ std::vector<Corner> detect(const Frame& frame) {
   return found;
 }
 
-// Returns an inner corner in the coordinates of the sheet. OpenCV counts corners from the top left.
+// Returns the position of an inner corner in the sheet's coordinates. OpenCV counts corners from
+// the top left.
 Vec3 on_sheet(int id) {
   const TargetSpec spec;
   const int column = id % (spec.squares_x - 1), row = id / (spec.squares_x - 1);
@@ -105,7 +106,7 @@ TEST(Target, ThePoseOnTheTableIsSeenAtThreeOrMoreOfTwelveAngles) {
   EXPECT_GE(seen, 3);
 }
 
-// Together, the poses cover all places at which an object of 80 mm may show the stripe.
+// The poses together cover all places at which an object of 80 mm may show the stripe.
 TEST(Target, TheLaserCrossesEveryPoseAndTheyCoverTheVolume) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Optics optics = optics_of(seed);
@@ -115,7 +116,8 @@ TEST(Target, TheLaserCrossesEveryPoseAndTheyCoverTheVolume) {
       const LaserSheet laser = optics_in(pose.frame, optics).laser;
       const PrintedTarget target;
       int lit = 0;
-      // Steps along the line in which the sheet cuts the target. y is the height on the target.
+      // Visits points of the line in which the sheet cuts the target. y is the height on the
+      // target.
       for (double y = -55; y <= 55; y += 5) {
         const double x = (laser.offset - laser.normal.y * y) / laser.normal.x;
         const Vec3 at = in_world(pose.frame, {x, y, 0});

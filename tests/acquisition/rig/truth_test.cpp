@@ -24,7 +24,7 @@ TEST(Truth, ABallOnTheAxisIsSeenButForItsCaps) {
     if (std::abs(z - 40) < 20) {
       EXPECT_TRUE(seen[v]) << z;
     } else if (z < 12) {
-      EXPECT_FALSE(seen[v]) << z;  // the sphere's lower cap faces the table
+      EXPECT_FALSE(seen[v]) << z;  // the lower part of the sphere faces the table
     }
   }
 }
@@ -43,13 +43,13 @@ TEST(Truth, WhatIsInsideIsNotSeen) {
 }
 
 TEST(Truth, WhatTheLaserAloneSeesDoesNotCount) {
-  // The bottom of the groove is lit, but the camera, 27 degrees off, sees only the side of the
-  // groove.
+  // The laser lights the bottom of the groove. The camera is 27 degrees to the side, so it sees
+  // only the side of the groove.
   TriangleMesh open = wall({20, 0, 40}, 0, 4), grooved = open;
   for (const double side : {-2.5, 2.5}) {
     add_quad(grooved, {20, side, 20}, {20, 0, 0}, {0, 0, 40});
   }
-  add_quad(grooved, {19, -10, 10}, {0, 20, 0}, {0, 0, 60});  // hides the bottom from behind
+  add_quad(grooved, {19, -10, 10}, {0, 20, 0}, {0, 0, 60});  // blocks the view from behind
   EXPECT_EQ(seen_of(open), std::vector<std::uint8_t>(4, 1));
   const auto seen = seen_of(grooved);
   EXPECT_EQ(std::vector<std::uint8_t>(seen.begin(), seen.begin() + 4),
@@ -84,7 +84,7 @@ TEST(Truth, SeenIsWhatShowsLightInAPicture) {
   for (std::size_t v = 0; v < seen.size(); ++v)
     differing += seen[v] != lit[v];
   EXPECT_GT(std::count(seen.begin(), seen.end(), 1), 40);
-  EXPECT_LE(differing, 4);  // at most the poles and vertices with only one lit face
+  EXPECT_LE(differing, 4);  // allows for the poles, and for vertices with only one visible face
 }
 
 TEST(Truth, ThePlyHasTheMeshInMillimetresAndTheFlag) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests two sheets, one behind the other, that are both lit and visible in the same picture rows.
-// The tests cover the way from the pictures to the mesh.
+// Tests surfaces, one behind the other, that are both lit and visible in the same picture rows. The
+// tests cover all steps from the pictures to the mesh.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 namespace vitrine::acquisition::rig::test {
 namespace {
 
-// Distances from the axis, in mm. They are so large that the first and the last profile are not
-// joined.
+// Distances of the two sheets from the axis, in mm. They are so large that the first and the last
+// profile are not joined.
 constexpr double kFront = 38, kBehind = 16;
 constexpr double kHeight = 40;  // mm: height of the rear sheet; the front sheet is half as high
-constexpr double kStep = .5;    // degrees
+constexpr double kStep = .5;    // degrees between profiles
 constexpr int kSteps = 17;
 
 TriangleMesh two_sheets() {
@@ -28,8 +28,7 @@ TriangleMesh two_sheets() {
   return mesh;
 }
 
-// Returns the profiles at angles around the middle of the revolution, at which both sheets face the
-// laser.
+// Returns profiles at those angles at which both sheets face the laser.
 std::vector<Profile> profiles() {
   const Optics optics = optics_of(1);
   const Calibration calibration = perfect_calibration(1);
@@ -59,7 +58,7 @@ double area_on(const TriangleMesh& mesh, double sheet) {
   return sum;
 }
 
-// Returns the height above which the front sheet does not shadow the rear sheet.
+// Returns the height above which the front sheet casts no shadow on the rear sheet.
 double shade() {
   const Vec3 source = optics_of(1).laser.source;
   const double slope = (source.z - kHeight / 2) / (source.x - kFront);

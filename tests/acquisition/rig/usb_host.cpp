@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // usb_host PROGRAM ARGUMENT…: runs a program that sees a simulated USB board. The program controls
-// the board through UsbRig (usb_rig.h), which sends commands and receives answers on an inherited
-// socket, each as one line.
+// the board through UsbRig (usb_rig.h). UsbRig sends commands over an inherited socket and receives
+// answers, one line each.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/socket.h>

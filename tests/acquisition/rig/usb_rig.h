@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the simulated USB board under which this test runs (usb_host.cpp).
+// Controls the simulated USB board that usb_host.cpp provides to this test.
 #pragma once
 
 #include <unistd.h>

@@ -9,7 +9,8 @@
 namespace vitrine::test {
 namespace {
 
-// Counts a call of the device function `name`. Fails if FakeWorld::fault returns true for it.
+// Counts a call of the device function `name`. Returns an error if FakeWorld::fault returns true
+// for this call.
 Expected<void> call(FakeWorld& world, const std::string& name) {
   int count = 0;
   {
@@ -23,8 +24,8 @@ Expected<void> call(FakeWorld& world, const std::string& name) {
   return {};
 }
 
-// Returns noise that is a function of position, laser and pixel only, so that equal captures are
-// equal.
+// Returns noise that depends only on angle, laser and pixel. So a repeated capture gives the same
+// picture.
 int noise(double degrees, bool laser, int pixel) {
   std::uint64_t x = static_cast<std::uint64_t>(std::lround(degrees * 1'000)) * 2 + laser;
   x = (x << 24) + static_cast<std::uint64_t>(pixel);
@@ -106,7 +107,8 @@ class FakeBoard : public Board {
     const std::lock_guard lock(world_.mutex);
     return world_.position_known ? std::optional(world_.degrees) : std::nullopt;
   }
-  // position() still returns the true angle afterwards, so the caller must declare the true angle.
+  // Does not change the angle that position() returns. The caller must therefore declare the angle
+  // at which the table really stands.
   Expected<void> set_position(double degrees) override {
     if (auto there = use("set position"); !there) return there;
     const std::lock_guard lock(world_.mutex);
@@ -140,7 +142,7 @@ class FakeBoard : public Board {
   }
 
  private:
-  // Counts a call of the board. Once the board is lost, laser and motor are off, because an
+  // Counts a call of the board. When the board is lost, switches laser and motor off, because an
   // unplugged board has no power.
   Expected<void> use(const std::string& name) {
     auto there = call(world_, name);

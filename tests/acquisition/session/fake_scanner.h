@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner in memory. The board turns a fluted column, and the camera sees the laser on the column
-// through a known plane map. A function injects faults.
+// A scanner in memory. The board turns a fluted column. The camera sees the laser's stripe on the
+// column through a known plane map. A function injects faults.
 #pragma once
 
 #include <filesystem>
@@ -31,14 +31,14 @@ enum class FakeObject {
   kOverExposed
 };
 
-// The state that the devices share. `fault` is called at each call of a device ("open camera",
-// "capture", "turn", "laser on", …) with the number of such calls so far. If it returns true, the
-// device is lost.
+// The state that the fake devices share. Each call of a device ("open camera", "capture", "turn",
+// "laser on", …) calls `fault` with its name and the number of such calls so far. If `fault`
+// returns true, the device is lost.
 struct FakeWorld {
   std::function<bool(const std::string& call, int count)> fault;
   std::function<void(const std::string& call, int count)>
-      meanwhile;  // called at each call, to simulate another thread
-  // Returns whether that capture repeats the preceding frame.
+      meanwhile;  // called at each call of a device, to simulate another thread
+  // Returns whether capture number `count` delivers the preceding frame again.
   std::function<bool(int count)> repeats;
   std::string serial = kFakeSerial;
   FakeObject object = FakeObject::kColumn;
@@ -58,7 +58,7 @@ Scanner fake_scanner(FakeWorld& world, const std::filesystem::path& calibrations
 // Returns the column's radius, in mm, at that angle of the table.
 double fake_radius(double degrees);
 
-// Returns the calibration of the fake camera, without a number.
+// Returns the calibration of the fake camera. Its number is not set.
 Calibration fake_calibration();
 
 }  // namespace vitrine::test

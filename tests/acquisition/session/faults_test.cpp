@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Injects every fault at every moment. Laser and motor must go off, no profile may be lost, and the
-// final mesh must be the same bit for bit.
+// Injects every fault at every moment. Laser and motor must be switched off, no profile may be
+// lost, and the final mesh must be the same in every bit.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -34,7 +34,7 @@ TEST_F(ScanTest, ADeviceUnpluggedAtAnyCallIsOpenedAnewAndNothingIsLost) {
           return true;
         };
         auto scan = this->scan(name);
-        // A scanner that fails before its first success is not retried.
+        // A scanner that fails on the first attempt is not tried again.
         if (run(*scan) == ScanState::kFailed) {
           expect_dark(world_);
           EXPECT_TRUE(is_lost);
@@ -42,14 +42,14 @@ TEST_F(ScanTest, ADeviceUnpluggedAtAnyCallIsOpenedAnewAndNothingIsLost) {
         }
         EXPECT_EQ(mesh_text(*scan), expected) << name;
         expect_dark(world_);
-        if (!is_lost) break;  // no more calls of this kind
+        if (!is_lost) break;  // the scan makes no further call of this kind
       }
     }
   }
 }
 
-// Recreates the state after the process was killed at that moment: the folder, and a table that
-// completes its current motion.
+// Recreates the state in which a process killed at that moment leaves the scan: its folder, and a
+// table that completes the current motion.
 TEST_F(ScanTest, AProcessKilledAtAnyStepLosesNothing) {
   const std::string expected = undisturbed();
   for (const bool forgets : {false, true}) {
@@ -68,7 +68,7 @@ TEST_F(ScanTest, AProcessKilledAtAnyStepLosesNothing) {
         };
         run(*scan(name));
         world_.meanwhile = {};
-        if (!killed) break;  // no more calls of this kind
+        if (!killed) break;  // the scan makes no further call of this kind
         world_.degrees = *stood_at, world_.forgets_position = forgets;
         auto opened = Scan::reopen(scanner(), path(name + "-left"), impatient());
         // Before the first checks have passed, there is no scan to resume.
@@ -104,7 +104,7 @@ TEST_F(ScanTest, ACameraThatStaysAwayIsAnErrorAndItsReturnIsEnough) {
   };
   EXPECT_EQ(run(*scan), ScanState::kFailed);
   EXPECT_THAT(scan->status().error->message, HasSubstr("is gone at \"open camera\""));
-  EXPECT_EQ(world_.calls["open camera"], 1 + 3);  // one call, and as many retries as configured
+  EXPECT_EQ(world_.calls["open camera"], 1 + 3);  // one attempt, and as many retries as configured
   EXPECT_GE(scan->status().steps_done, 2);
   expect_dark(world_);
   EXPECT_EQ(reopened()->status().state, ScanState::kFailed);
@@ -126,7 +126,7 @@ TEST_F(ScanTest, ATableThatDoesNotTurnEndsTheScanAtTheSecondTry) {
   EXPECT_EQ(world_.calls["turn"], 6);
   EXPECT_EQ(world_.calls["open board"], 2);
   world_.fault = {};
-  world_.forgets_position = true;  // the table still stands where its last complete motion ended
+  world_.forgets_position = true;  // the table still stands at the end of its last complete motion
   EXPECT_EQ(run(scan), ScanState::kDone);
   EXPECT_EQ(mesh_text(scan), undisturbed());
 }
@@ -144,7 +144,7 @@ TEST_F(ScanTest, ACameraThatAKilledProcessStillHoldsIsWaitedFor) {
 
 TEST_F(ScanTest, AFrameThatComesTwiceIsNoPictureWithTheLaserOnAndBothAreTakenAnew) {
   const std::string expected = undisturbed();
-  for (const int count : {2, 4, 10}) {  // `count` counts all captures of the scan
+  for (const int count : {2, 4, 10}) {  // numbers of captures, counted over the whole scan
     const std::string name = fmt::format("repeated-{}", count);
     world_.calls.clear();
     world_.degrees = 0;
@@ -243,7 +243,7 @@ TEST_F(ScanTest, TheEmergencyStopReachesTheBoardWithinAMotion) {
   };
   EXPECT_EQ(run(*scan), ScanState::kFailed);
   EXPECT_THAT(scan->status().error->message, HasSubstr("emergency stop"));
-  EXPECT_EQ(world_.calls["open board"], 1);  // no later call switches the board on again
+  EXPECT_EQ(world_.calls["open board"], 1);  // the board is not switched on again
   world_.meanwhile = {};
   EXPECT_EQ(run(*scan), ScanState::kDone);
   EXPECT_EQ(mesh_text(*scan), undisturbed());

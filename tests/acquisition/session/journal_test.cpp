@@ -14,7 +14,7 @@ namespace {
 
 class Journal : public testing::Test {
  protected:
-  // Writes a turn and a profile with i points for each step i. Notes the file's size after each
+  // For each step i, writes a turn and a profile with i points. Notes the file's size after each
   // record.
   void write(int profiles) {
     JournalContents contents;
@@ -57,7 +57,8 @@ class Journal : public testing::Test {
       }
     }
   }
-  // Returns the number of whole records in `size` bytes. Records of turns and profiles alternate.
+  // Returns the number of complete records in the first `size` bytes. Records of turns and profiles
+  // alternate.
   std::size_t whole_records(std::size_t size) const {
     return static_cast<std::size_t>(
         std::ranges::count_if(ends_, [&](std::uintmax_t end) { return end <= size; }));

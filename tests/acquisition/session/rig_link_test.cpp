@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A rig that answers each line with the next of `answers`, then hangs up.
+// A fake rig that answers each line with the next of `answers`, then closes the connection.
 class FakeRig {
  public:
   FakeRig(const std::filesystem::path& path, std::vector<std::string> answers)

@@ -29,7 +29,7 @@ TEST_F(ScanTest, AnUndisturbedScanPassesThroughItsStatesAndEndsInAMesh) {
     if (seen.empty() || seen.back() != state) seen.push_back(state);
   };
   EXPECT_EQ(run(*scan), ScanState::kDone);
-  // The devices are closed before meshing.
+  // The devices are already closed when meshing starts.
   EXPECT_THAT(seen, ElementsAre(ScanState::kChecking, ScanState::kScanning));
   ASSERT_TRUE(scan->surface());
   EXPECT_GT(scan->surface()->mesh.faces.size(), 50u);
@@ -332,7 +332,8 @@ TEST_F(ScanTest, AStripeThatIsLostOnTheWayStopsTheScanOnce) {
     world_.object = is_lost ? FakeObject::kNothing : FakeObject::kColumn;
   };
   EXPECT_EQ(run(*scan), ScanState::kFailed);
-  // The first motion belongs to the checks before the scan, not to a step.
+  // The first motion belongs to the checks before the scan, so the scan fails before its first
+  // step.
   EXPECT_THAT(scan->status().error->message,
               HasSubstr("the stripe is lost since step 11 of the scan, no stripe: 0 rows of 5"));
   EXPECT_EQ(scan->status().steps_done, 10) << "the others are measured again";
@@ -386,7 +387,7 @@ TEST_F(ScanTest, ACrashJustWhenTheStripeIsLostDoesNotHideThat) {
   EXPECT_EQ(scan->status().steps_done, 4);
 }
 
-// The step at which the scan stops depends only on the steps, not on pauses between them.
+// The scan must stop at the same step, whether or not it was paused between steps.
 TEST_F(ScanTest, APauseWhileTheStripeIsLostDoesNotHideThat) {
   constexpr int kManySteps = 40;
   const auto run_with_pause_at = [&](int pause) {

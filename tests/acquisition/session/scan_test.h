@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan with the fake scanner in a folder of its own.
+// Test fixture: a scan with the fake scanner, in a folder of its own.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -67,7 +67,7 @@ class ScanTest : public testing::Test {
     add(surface->mesh.positions), add(surface->mesh.faces);
     return text;
   }
-  // Returns the mesh of an undisturbed scan.
+  // Returns the mesh of a scan without faults or interruptions.
   std::string undisturbed() {
     FakeWorld calm;
     auto made = Scan::create(fake_scanner(calm, calibrations_), request(), path("undisturbed"),

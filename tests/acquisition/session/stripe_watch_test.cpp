@@ -7,11 +7,12 @@
 namespace vitrine::test {
 namespace {
 
-constexpr int kTurn = 80;  // number of steps; they are judged in groups of ten
+constexpr int kTurn = 80;  // steps in a revolution; each eighth (ten steps) is judged as a whole
 
 class Watched {
  public:
-  // Returns the number of reports within `steps` steps if `doubled` % of the rows show two lines.
+  // Returns how often the watch reports within `steps` steps if `doubled` % of the rows show two
+  // lines.
   int told(int steps, std::uint64_t doubled) {
     int told = 0;
     for (int i = 0; i < steps; ++i) {
@@ -29,7 +30,9 @@ class Watched {
 TEST(StripeWatch, AnObjectThatHoversAboutTheLimitIsToldOnce) {
   Watched watched;
   EXPECT_EQ(watched.told(10, 60), 1);
-  for (int i = 0; i < 20; ++i)  // the sums over ten steps are alternately below and above half
+  // The sums over ten steps are alternately below and above the limit, which is one half of the
+  // rows.
+  for (int i = 0; i < 20; ++i)
     EXPECT_EQ(watched.told(2, 0) + watched.told(2, 100), 0);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the failures of picture_target(). The tests with vitrine-rig cover its success.
+// Tests the failures of picture_target(). The tests with vitrine-rig cover its normal use.
 #include "acquisition/session/target_pictures.h"
 
 #include "scan_test.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scans of shapes whose surface is known.
+// Scans of shapes with a known surface.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace vitrine::acquisition {
 
-// Returns rho, in mm, at an angle about the axis (radians) and a height (mm). Returns nullopt where
+// Returns rho, in mm, at an angle about the axis (radians) and a height (mm). Returns nullopt if
 // there is no surface.
 using Shape = std::function<std::optional<double>(double angle, double z)>;
 
@@ -25,8 +25,8 @@ struct Scanned {
 std::vector<Profile> scan_of(const Shape& shape, const Scanned& how = {});
 
 Shape cylinder(double radius);
-// An ellipsoid with its centre on the axis at the height `height`. `across` and `up` are its half
-// axes. All are in mm.
+// An ellipsoid with its centre on the axis at `height`. `across` and `up` are its half axes. All
+// values are in mm.
 Shape ellipsoid(double across, double up, double height);
 Shape box(double half);
 

@@ -31,7 +31,7 @@ TEST(Strands, OfOnePointARowAreOne) {
   EXPECT_EQ(strands_of({}).size(), 1);
 }
 
-// The points of a row may be in any order.
+// The points within a row may be in any order.
 TEST(Strands, FollowTheSurface) {
   std::mt19937 random(1);
   Profile profile{30, {}};
@@ -57,8 +57,8 @@ TEST(Strands, ASurfaceThatIsAloneAgainStaysInItsStrand) {
   EXPECT_THAT(rhos(strands[1]), testing::ElementsAre(12, 12, 12, 12));
 }
 
-// The nearest strand may have no point in the row of the given point. Then its position in that row
-// is interpolated, unless the surface ends between the strand's points.
+// If the nearest strand has no point in the row of the given point, its position in that row is
+// interpolated. If the surface ends between two points of the strand, there is no such position.
 TEST(NearestStrand, IsNearAtThePointsRow) {
   Profile sparse{0, {point(0, 20), point(40, 20)}}, dense{0, {}};
   for (int row = 0; row <= 40; ++row)

@@ -106,7 +106,7 @@ TEST(Surface, DoesNotDependOnTheOrderOfProfiles) {
   EXPECT_EQ(shuffled.faces, in_order.faces);
 }
 
-// The axis lies beside the laser plane, so points have a lateral distance from it.
+// The axis lies 3 mm beside the laser plane, so all points have a lateral distance of 3 mm from it.
 TEST(Surface, OfAPlaneBesideTheAxisIsTheSameCylinder) {
   auto profiles = scan_of(cylinder(std::sqrt(20. * 20 - 9)));
   for (Profile& profile : profiles) {
@@ -119,7 +119,7 @@ TEST(Surface, OfAPlaneBesideTheAxisIsTheSameCylinder) {
     EXPECT_NEAR(std::hypot(p.x, p.y), 20, 1e-9);
 }
 
-// A cup whose inner wall the camera sees only beyond the axis.
+// The camera sees the inner wall of this cup only beyond the axis.
 TEST(Surface, BeyondTheAxisFacesTheLaserToo) {
   auto profiles = scan_of(cylinder(20), {.rows = 40});
   for (Profile& profile : profiles) {
@@ -143,7 +143,7 @@ TEST(Surface, WhatIsSeenASecondTimeBeyondTheAxisIsDropped) {
   EXPECT_EQ(surface->mesh.faces.size(), 2 * 90 * 59);
 }
 
-// Every profile has different rows.
+// The profiles have points in different rows.
 TEST(Surface, OfUnequalProfilesIsClosedWithoutOverlap) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -176,7 +176,8 @@ TEST(Surface, OfAnySamplingHasNoHoles) {
           mesh_of(profiles, {.sampling = {.method = method, .window = length, .noise = .02}});
       const Topology topology = topology_of(mesh);
       EXPECT_EQ(topology.most, 2);
-      EXPECT_LE(topology.boundary, 2 * 90 + 2 * 90 * 2);  // both rims and their ragged ends
+      // The boundary consists at most of both rims and the uneven ends of the profiles.
+      EXPECT_LE(topology.boundary, 2 * 90 + 2 * 90 * 2);
       EXPECT_GT(signed_volume(mesh), 0);
     }
   }
@@ -196,8 +197,8 @@ TEST(Surface, AtADepthDiscontinuityAGapStays) {
   }
 }
 
-// The depth changes by 1.7 mm from one row to the next, which exceeds 4 s_max. But at 74 degrees
-// the laser may still reach the surface.
+// The depth changes by 1.7 mm from one row to the next, which exceeds 4 s_max ([WLL] eq. 5). But
+// the step is only 74 degrees oblique, and the default of `largest_angle` is 75 degrees.
 TEST(Surface, AGrazingStepIsNoDiscontinuity) {
   const auto step = [](double, double z) { return z > 4.75 ? 20 : 21.7; };
   const auto profiles = scan_of(step, {.profiles = 360, .rows = 20, .top = 9.5});
@@ -207,15 +208,17 @@ TEST(Surface, AGrazingStepIsNoDiscontinuity) {
   EXPECT_EQ(mesh_of(profiles, flat).faces.size(), 2 * 360 * 18);
 }
 
-// The depth changes by 1.8 mm a row, at 82 degrees, over the whole slope.
+// Along the whole slope, the depth changes by 1.8 mm from one row to the next, 0.25 mm away. So the
+// slope is 82 degrees.
 TEST(Surface, ASlopeThatIsGrazedAllAlongIsWhole) {
   const auto cone = [](double, double z) { return 45 - 7.2 * z; };
   const auto profiles = scan_of(cone, {.profiles = 360, .rows = 20, .top = 4.75});
   EXPECT_EQ(mesh_of(profiles, {.largest_spacing = .42}).faces.size(), 2 * 360 * 19);
 }
 
-// The same slope, but tilted: its height changes by up to .35 mm from step to step. So the depth
-// changes by up to 2.5 mm from step to step and by 1.8 mm from row to row.
+// The slope of the test above, but tilted: its height changes by up to .35 mm from one profile to
+// the next. So the depth changes by up to 2.5 mm from one profile to the next, and by 1.8 mm from
+// one row to the next.
 TEST(Surface, ASlopeThatRunsAcrossTheRowsIsWholeToo) {
   const auto cone = [](double angle, double z) -> std::optional<double> {
     const double rho = 45 - 7.2 * (z - 20 - 20 * std::sin(angle));
@@ -247,7 +250,7 @@ TEST(Surface, SpecksAndOutliersVanish) {
     EXPECT_LT(std::hypot(p.x, p.y), 21);
 }
 
-// A brim, as of a hat, that shows on two rows of all profiles.
+// A thin wall, like the brim of a hat, that appears in two rows of all profiles.
 TEST(Surface, AThinWallSeenOnFewRowsStays) {
   auto profiles = scan_of(cylinder(20));
   for (Profile& profile : profiles) {
@@ -282,7 +285,7 @@ TEST(Surface, ASmallGapIsFilledLinearlyALargeOneIsNot) {
   EXPECT_EQ(unfilled->report.filled, 0);
 }
 
-// The laser misses the top, which leaves a hole with a diameter between 1 and 2 mm.
+// The laser misses the top of the object, which leaves a hole with a diameter between 1 and 2 mm.
 TEST(Surface, ASmallHoleInTheMeshIsClosed) {
   const auto dome = [](double, double z) { return std::sqrt(20 * 20 - z * z); };
   const Scanned how = {.profiles = 180, .rows = 400, .top = 19.99, .bottom = 0};
@@ -290,7 +293,7 @@ TEST(Surface, ASmallHoleInTheMeshIsClosed) {
   EXPECT_EQ(topology_of(mesh_of(scan_of(dome, how), {.largest_hole = 1})).boundary, 360);
 }
 
-// Merges profiles: a row has the points of both surfaces, in any order.
+// Merges two scans. Each row then has the points of both surfaces, in random order.
 std::vector<Profile> both(std::vector<Profile> profiles, const std::vector<Profile>& others) {
   std::mt19937 random(1);
   for (std::size_t k = 0; k < profiles.size(); ++k) {
@@ -311,7 +314,7 @@ TEST(Surface, OfTwoInEachRowIsBoth) {
   EXPECT_TRUE(topology.oriented);
 }
 
-// A pocket lies in front of a wall. So some rows of some profiles show two surfaces.
+// A pocket lies in front of a wall, so some rows of some profiles show two surfaces.
 TEST(Surface, OfTwoInSomeRowsIsBothThere) {
   auto pocket = scan_of(cylinder(24));
   for (std::size_t k = 0; k < pocket.size(); ++k) {
@@ -324,7 +327,7 @@ TEST(Surface, OfTwoInSomeRowsIsBothThere) {
   EXPECT_EQ(topology_of(mesh).boundary, 2 * 90 + 4 * 19);
 }
 
-// The depths differ by less than the limit for joining, but the surfaces must stay separate.
+// The two surfaces are closer together than the limit for joining points, but must stay separate.
 TEST(Surface, OfTwoThatAreCloseJoinsNoneToTheOther) {
   const TriangleMesh mesh = mesh_of(both(scan_of(cylinder(20)), scan_of(cylinder(18))));
   EXPECT_EQ(mesh.faces.size(), 2 * (2 * 90 * 59));
@@ -365,7 +368,8 @@ TEST(Surface, NoiseIsSmoothedWithinWhatTheSensorHas) {
   EXPECT_LT(rms_rho(mesh_of(profiles, {.noise = .03}), error), .5 * raw);
 }
 
-// The order of a step's strands varies from step to step.
+// The points of a row are in random order, so the order of a profile's two strands (strands.h)
+// varies from profile to profile.
 TEST(Surface, TwoInEachRowAreSmoothedAsOne) {
   const auto error = [](const Vec3& p) {
     const double rho = std::hypot(p.x, p.y);
@@ -419,8 +423,8 @@ TEST(Surface, TooLittleIsRefusedWithAReason) {
   EXPECT_THAT(nothing.error().message, HasSubstr("of 0 points"));
 }
 
-// For any profiles, no edge has three faces, the orientation is consistent, and the import accepts
-// the mesh.
+// For random profiles, no edge has three faces, the orientation is consistent, and the import
+// accepts the mesh.
 TEST(Surface, OfRandomProfilesIsEdgeManifold) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -453,7 +457,8 @@ TEST(Surface, OfRandomProfilesIsEdgeManifold) {
   }
 }
 
-// Two sheets approach, separate and end anywhere, so that strands swap, merge and split.
+// Two wavy sheets intersect, and each lacks some rows, which are random in each profile. So the
+// strands of a profile (strands.h) have gaps and change from one sheet to the other.
 TEST(Surface, OfTwoRaggedSheetsIsEdgeManifold) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -53,8 +53,8 @@ void collapse(Mesh& mesh, double share, const Cost& cost, const Placement& place
   policies::edge_collapse(mesh, stop, CGAL::parameters::get_cost(cost).get_placement(placement));
 }
 
-// Simplifies with `run`, which gets a mesh and the share of its edges to keep. On a closed mesh,
-// the share of edges equals the share of faces.
+// Simplifies with `run`, whose arguments are a mesh and the share of its edges to keep. On a closed
+// mesh, that is also the share of its faces.
 template <class Run>
 Simplified simplify(const TriangleMesh& source, std::size_t faces, const Run& run) {
   Simplified out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras close to a model, and the bytes that the planner sends to each.
+// Cameras close to a model, and the bytes that the planner sends to each camera.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,13 @@
 
 namespace vitrine::bench {
 
-// Returns six cameras, one for each direction of an axis. Each is in front of the outermost vertex
-// on its side. Its distance is such that `share` of the model's diagonal fills the height of a
+// Returns six cameras, one for each direction of an axis. Each camera is in front of the outermost
+// vertex on its side. It is so close that `share` of the model's diagonal fills the height of a
 // viewport of 800 x 600 pixels.
 std::vector<View> close_ups(const TriangleMesh& mesh, double share);
 
-// Returns the bytes, header included, after which no visible error exceeds one pixel.
+// Returns the bytes, header included, that the planner needs until no visible error exceeds one
+// pixel.
 std::uint64_t bytes_for(const Manifest& manifest, const View& view);
 
 }  // namespace vitrine::bench

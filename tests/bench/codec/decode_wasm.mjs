@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the seconds that the warmed-up browser decoder takes for a whole file, and the bytes of memory
-// that it holds after returning the surface:
+// Prints the seconds that the warmed-up browser decoder takes for a whole file, and the bytes of
+// memory that the decoder holds after returning the surface:
 // node decode_wasm.mjs DECODER.wasm FILE.pmesh
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -9,7 +9,7 @@ const web = new URL("../../../web/", import.meta.url);
 const require = createRequire(new URL("package.json", web));
 const { outputFiles } = await require("esbuild").build({
   stdin: {
-    contents: 'export { Decoder } from "./decoder.ts"; export { decodeBase } from "./draco.ts";',
+    contents: 'export { Decoder } from "./decoder.ts";',
     resolveDir: new URL("src/core", web).pathname,
   },
   bundle: true,
@@ -18,23 +18,22 @@ const { outputFiles } = await require("esbuild").build({
   write: false,
 });
 const bundle = Buffer.from(outputFiles[0].contents).toString("base64");
-const { Decoder, decodeBase } = await import(`data:text/javascript;base64,${bundle}`);
+const { Decoder } = await import(`data:text/javascript;base64,${bundle}`);
 
 const [wasm, file] = await Promise.all(process.argv.slice(2, 4).map((path) => readFile(path)));
 const module = await WebAssembly.compile(wasm);
-const draco = await require("draco3d").createDecoderModule({});
 
 async function decode() {
   const decoder = await Decoder.create(module);
   const info = decoder.open(file.subarray(0, decoder.headerLength(file)));
-  decoder.start(decodeBase(draco, file.subarray(info.baseOffset, info.baseOffset + info.baseLength), info));
+  decoder.start(file.subarray(info.baseOffset, info.baseOffset + info.baseLength), new Uint8Array());
   for (const [chunk, { offset, length }] of info.chunks.entries()) {
     decoder.apply(chunk, file.subarray(offset, offset + length));
   }
   return decoder;
 }
 
-// Measures the processor time of the last run, after the engine has compiled the hot code.
+// Processor time of the last run. By then, the engine has compiled the hot code.
 let seconds;
 for (let run = 0; run < 3; ++run) {
   const start = process.cpuUsage();

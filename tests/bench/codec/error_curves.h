@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error of each level of a `.pmesh` as a function of its faces and of its bytes.
+// The error of each level of a `.pmesh`, as a function of the level's faces and of its bytes.
 #pragma once
 
 #include <cstdint>

@@ -15,8 +15,8 @@ struct BenchmarkModel {
   TriangleMesh clean;
 };
 
-// Whether the scan is so large that stricter thresholds apply. Most views do not need the fine
-// levels of such a scan.
+// Whether the scan is so large that most views do not need its fine levels. Stricter thresholds
+// apply to such a scan.
 inline bool is_large(const BenchmarkModel& model) {
   return model.clean.faces.size() >= 1'000'000;
 }

@@ -13,8 +13,8 @@ namespace {
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
-  // The mesh must have these attributes itself, so that the marks of deleted faces survive the
-  // destruction of the decimater.
+  // The mesh needs these attributes permanently. The decimater's own attributes, which mark deleted
+  // faces, would be removed with the decimater.
   VertexAttributes(OpenMesh::Attributes::Status);
   EdgeAttributes(OpenMesh::Attributes::Status);
   FaceAttributes(OpenMesh::Attributes::Status);

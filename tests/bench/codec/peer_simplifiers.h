@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simplifiers of other libraries, each behind one function.
+// Simplifiers of other libraries, each wrapped in one function.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@ struct Simplified {
   double seconds = 0;  // processor time of the simplification alone
 };
 
-// Simplifies with meshoptimizer's edge collapses onto existing vertices.
+// Simplifies with meshoptimizer's edge collapses. Vertices keep their positions.
 Simplified simplify_by_meshopt(const TriangleMesh& mesh, std::size_t faces);
 
-// Simplifies with meshoptimizer and updated positions, which only its npm package supports. Returns
-// one mesh per number of faces.
+// Simplifies with meshoptimizer and moves vertices to better positions, which only its npm package
+// supports. Returns one mesh for each number of faces.
 std::vector<Simplified> simplify_by_meshopt_update(const TriangleMesh& mesh,
                                                    const std::vector<std::size_t>& faces);
 
-// Simplifies with OpenMesh's decimater and ModQuadric only.
+// Simplifies with OpenMesh's decimater and its quadric error module (ModQuadric).
 Simplified simplify_by_openmesh(const TriangleMesh& mesh, std::size_t faces);
 
-// Both functions simplify with CGAL's edge collapses and default policies: the first by [GH97], the
-// second by [LT98]. They are defined only if CMake found CGAL.
+// Simplify with CGAL's edge collapses and default policies, by [GH97] and by [LT98]. These
+// functions are defined only if CMake found CGAL.
 Simplified simplify_by_garland_heckbert(const TriangleMesh& mesh, std::size_t faces);
 Simplified simplify_by_lindstrom_turk(const TriangleMesh& mesh, std::size_t faces);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wraps each library that the codec is compared with in one function.
+// Functions that wrap the libraries with which the codec is compared.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,24 @@ using Bytes = std::vector<std::uint8_t>;
 // any.
 Bytes draco_encode(const TriangleMesh& mesh, int bits);
 
-// Decodes in this process and returns the number of faces.
+// Decodes the file in this process. Returns the number of faces.
 std::uint32_t draco_decode(std::span<const std::uint8_t> bytes);
 
 // Returns the mesh of a Draco file, without colours.
 TriangleMesh draco_mesh(std::span<const std::uint8_t> bytes);
 
-// Flat arrays in meshoptimizer's layout, so that its measured time includes only the
-// simplification.
+// A mesh as flat arrays in meshoptimizer's layout. Preparing it beforehand keeps the conversion out
+// of the measured time.
 struct MeshoptInput {
   std::vector<float> positions;
+  std::vector<float> attributes;  // `attribute_count` values per vertex
+  std::uint32_t attribute_count = 0;
   std::vector<std::uint32_t> indices;
 };
 MeshoptInput meshopt_input(const TriangleMesh& mesh);
 
-// Returns the indices that remain after one meshopt_simplify to about `faces` triangles.
+// Returns the indices that remain after meshopt_simplify has reduced the mesh to about `faces`
+// triangles.
 std::vector<std::uint32_t> meshopt_simplify_to(const MeshoptInput& mesh, std::size_t faces);
 
 }  // namespace vitrine::bench

@@ -10,11 +10,11 @@
 namespace vitrine::bench {
 namespace {
 
-// Largest accepted ratio of our bytes to those of the single file: geometric mean over a model's
-// levels.
+// Largest accepted ratio of our bytes to those of a single file of equal error. It limits the
+// geometric mean over a model's levels.
 constexpr double kMaxRate = 1.5;
 constexpr std::size_t kFewestFaces = 50'000;
-// Range of the compared levels, as shares of the faces.
+// Range of the compared levels, as shares of the original's faces.
 constexpr double kCoarsest = 0.01, kFinest = 0.5;
 
 void compare(Report& report, const BenchmarkModel& model, const RateCurve& peer) {

@@ -10,8 +10,9 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kMaxRegions = 1.03;  // maximum size, as a multiple of a file of one region
-// Maximum bytes of a close-up, as a share of a large scan's file.
+// Maximum size of a file, as a multiple of the size of the same file with one region.
+constexpr double kMaxRegions = 1.03;
+// Maximum bytes that a close-up needs, as a share of a large scan's file.
 constexpr double kMaxCloseUp = 1.0 / 3;
 
 struct CloseUp {
@@ -19,14 +20,14 @@ struct CloseUp {
   double share;  // share of the diagonal that fills the height of the viewport
   double limit;
 };
-// In views closer than these, a pixel would hardly be larger than the rounding of the lattice, so
-// all visible regions would need full resolution. A scan needs full resolution even here if only
-// its last level has an error of at most one pixel.
+// The closest views that are judged. In closer views, a pixel would hardly be larger than the
+// rounding of the lattice, so all visible regions would need full resolution. Even here, a scan
+// needs full resolution if only its last level has an error of at most one pixel.
 constexpr CloseUp kCloseUps[] = {{"close_up_quarter", 0.25, kMaxCloseUp},
                                  {"close_up_eighth", 0.125, kNoThreshold}};
 
-// Considers only chunks of levels with several regions. Returns how many of them are below 8 KiB or
-// above 64 KiB, and how many there are.
+// Considers only chunks of levels with several regions. Returns the number of such chunks smaller
+// than 8 KiB or larger than 64 KiB, and the number of all such chunks.
 std::pair<double, double> chunks_out_of_band(const Manifest& manifest) {
   double outside = 0, all = 0;
   for (const ChunkInfo& chunk : manifest.chunks) {

@@ -12,7 +12,7 @@ inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
 
 struct Figure {
   std::string what, key;
-  double ours, peer, ratio, threshold;  // a value that does not exist is 0
+  double ours, peer, ratio, threshold;  // 0 if a value does not exist
   bool is_minimum = false;              // whether the threshold is a minimum instead of a maximum
 
   bool is_within() const { return is_minimum ? ratio >= threshold : ratio <= threshold; }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kShare = 10;  // the simplifiers keep one face in kShare
 
-// Returns the last of three runs, after the engine has compiled the hot code.
+// Returns the last of three runs. By then, the engine has compiled the hot code.
 Simplified meshopt_update(const TriangleMesh& mesh, std::size_t faces) {
   return std::move(simplify_by_meshopt_update(mesh, {faces, faces, faces}).back());
 }

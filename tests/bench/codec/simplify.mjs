@@ -1,34 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simplifies a mesh with meshoptimizer and updated positions, which Debian's version of the library does not support:
+// Simplifies a mesh with meshoptimizer and moves vertices to better positions, which Debian's
+// version of the library does not support:
 // node simplify.mjs MESH FACES...
-// MESH holds the number of vertices (u32), the number of indices (u32), positions (f32) and indices (u32). For each
-// number of faces, writes the seconds of processor time (f32) and then a mesh in the form of MESH to the standard
-// output.
+// MESH holds the numbers of vertices, indices and attributes per vertex (u32 each), positions (f32),
+// attributes (f32) and indices (u32). For each number of faces, writes to the standard output the
+// processor time in seconds (f32) and a mesh in the format of MESH. Attributes keep their seams as
+// far as these permit the number of faces.
 import { readFileSync, writeSync } from "node:fs";
 import { MeshoptSimplifier } from "meshoptimizer";
 
 await MeshoptSimplifier.ready;
 const [path, ...targets] = process.argv.slice(2);
 const { buffer } = new Uint8Array(readFileSync(path));
-const [vertices, count] = new Uint32Array(buffer, 0, 2);
-const fine = new Float32Array(buffer, 8, 3 * vertices);
-const faces = new Uint32Array(buffer, 8 + 12 * vertices, count);
+const [vertices, count, width] = new Uint32Array(buffer, 0, 3);
+const fine = new Float32Array(buffer, 12, 3 * vertices);
+const values = new Float32Array(buffer, 12 + 12 * vertices, width * vertices);
+const faces = new Uint32Array(buffer, 12 + 4 * (3 + width) * vertices, count);
+
+const kAttributeWeight = 0.5; // as in codec/simplify/TEXTURES.md, section 1
+const kStuck = 1.2; // more faces than this, relative to the number asked for, mean that seams are in the way
+
+function reduce(target, flags) {
+  const positions = fine.slice();
+  const attributes = values.slice();
+  const indices = faces.slice();
+  const [kept] = MeshoptSimplifier.simplifyWithUpdate(
+    indices, positions, 3, attributes, width, Array(width).fill(kAttributeWeight), null, 3 * target, 1, flags);
+  return { positions, attributes, left: indices.slice(0, kept) };
+}
 
 function simplify(target) {
-  const positions = fine.slice();
-  const indices = faces.slice();
-  const none = new Float32Array(0);
   const start = process.cpuUsage();
-  const [kept] = MeshoptSimplifier.simplifyWithUpdate(
-    indices, positions, 3, none, 0, [], null, 3 * target, 1);
+  let result = reduce(target, []);
+  if (width > 0 && result.left.length > 3 * target * kStuck) result = reduce(target, ["Permissive"]);
+  const { positions, attributes, left } = result;
   const seconds = process.cpuUsage(start).user / 1e6;
-  const left = indices.slice(0, kept);
   const [remap, unique] = MeshoptSimplifier.compactMesh(left);
-  const compact = new Float32Array(3 * unique);
-  remap.forEach((to, from) => {
-    if (to < unique) compact.set(positions.subarray(3 * from, 3 * from + 3), 3 * to);
-  });
-  return [new Float32Array([seconds]), new Uint32Array([unique, left.length]), compact, left];
+  const compact = (from, size) => {
+    const to = new Float32Array(size * unique);
+    remap.forEach((at, i) => {
+      if (at < unique) to.set(from.subarray(size * i, size * i + size), size * at);
+    });
+    return to;
+  };
+  return [new Float32Array([seconds]), new Uint32Array([unique, left.length, width]), compact(positions, 3),
+    compact(attributes, width), left];
 }
 
 function write(array) {

@@ -14,13 +14,13 @@ namespace vitrine::bench {
 namespace {
 
 constexpr int kTargets = 14;
-constexpr double kFewest = 0.004, kMost = 0.65;  // range of targets, as shares of the faces
+constexpr double kFewest = 0.004, kMost = 0.65;  // range of the targets, as shares of the faces
 constexpr int kFewestBits = 8, kMostBits = 12;
 constexpr std::size_t kSamples = 50'000;
 constexpr std::size_t kFewestPoints = 12;  // a curve with fewer points is rejected
 
-// Returns numbers of faces from kFewest to kMost of the original's, evenly spaced on a logarithmic
-// scale.
+// Returns the numbers of faces to simplify to, from kFewest to kMost of the original's. They are
+// evenly spaced on a logarithmic scale.
 std::vector<std::size_t> targets(const TriangleMesh& original) {
   std::vector<std::size_t> out;
   for (int i = 0; i < kTargets; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The strongest competitor of the prefixes of a `.pmesh`: a separate file for each number of faces,
-// simplified by meshoptimizer with updated positions and encoded by Draco with the best number of
-// bits.
+// The strongest competitor of a `.pmesh` and its prefixes: a separate file for each number of
+// faces. meshoptimizer simplifies the mesh and moves its vertices; Draco encodes the result with
+// the best number of bits.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,9 @@ namespace vitrine::bench {
 
 struct CodedFile {
   double bytes = 0;
-  double error = 0;  // rms in % of the diagonal, both ways (codec/distance/surface_distance.h)
+  // Rms error in % of the diagonal, measured in both directions
+  // (codec/distance/surface_distance.h).
+  double error = 0;
 };
 
 // Returns the rms distance between `mesh` and `original`, in % of the diagonal.
@@ -21,15 +23,15 @@ double rms_percent(const TriangleMesh& mesh, const TriangleMesh& original);
 
 class RateCurve {
  public:
-  // Keeps the points that no other point beats in both bytes and error. Throws if fewer than twelve
-  // remain.
+  // Keeps the points for which no other point has both fewer bytes and a smaller error. Throws if
+  // fewer than twelve remain.
   explicit RateCurve(std::vector<CodedFile> points);
 
-  // Returns the bytes at `error` by log-log interpolation; nullopt outside the curve.
+  // Returns the bytes at `error` by log-log interpolation. Returns nullopt outside the curve.
   std::optional<double> bytes_at(double error) const;
 
  private:
-  std::vector<CodedFile> points_;  // in order of ascending bytes and descending errors
+  std::vector<CodedFile> points_;  // sorted by ascending bytes, and thus by descending error
 };
 
 RateCurve single_files(const TriangleMesh& original);

@@ -11,10 +11,10 @@ namespace vitrine::bench {
 namespace {
 
 constexpr double kMaxSize = 1.27, kMaxMeanSize = 1.03;
-// Minimum number of models for a mean. A mean of fewer says little.
+// Minimum number of models for which a mean is meaningful.
 constexpr std::size_t kMeanModels = 5;
-// Maximum bytes of the header and the base mesh, which the first request fetches, per million
-// triangles. A part of a million counts as a million.
+// Maximum bytes of the head (header and base mesh), which the first request fetches, per million
+// triangles. A started million counts as a whole one.
 constexpr double kMaxHead = 32 * 1024;
 
 void first_request(Report& report, const BenchmarkModel& model, const Bytes& pmesh) {

@@ -18,15 +18,16 @@ namespace vitrine::bench {
 namespace {
 
 constexpr int kRounds = 5;
-// Limits apply only from this size: for smaller scans, fixed costs outweigh the cost per triangle.
+// Limits apply only to scans of at least this size. For smaller scans, fixed costs outweigh the
+// cost per triangle.
 constexpr std::size_t kJudgedVertices = 100'000;
 constexpr double kMaxBuild = 20;       // maximum build time, as a multiple of one meshopt_simplify
-constexpr double kMaxLargeBuild = 15;  // replaces kMaxBuild for at least a million faces
+constexpr double kMaxLargeBuild = 15;  // replaces kMaxBuild for scans of at least a million faces
 constexpr double kMaxDecode = 8;       // maximum decode time, as a multiple of Draco's
-// Maximum time of the WebAssembly decoder, as a multiple of the native one's.
+// Maximum time of the WebAssembly decoder, as a multiple of the native decoder's time.
 constexpr double kMaxWasm = 2;
-constexpr double kMaxBytes = 60;        // maximum bytes per triangle in the WebAssembly decoder
-constexpr double kMaxBuildBytes = 250;  // maximum bytes per triangle during a build
+constexpr double kMaxBytes = 60;        // bytes of memory per triangle in the WebAssembly decoder
+constexpr double kMaxBuildBytes = 250;  // bytes of memory per triangle during a build
 // Maximum ratio of the largest model's build time per triangle to that of a smaller one.
 constexpr double kMaxGrowth = 1.5;
 
@@ -69,7 +70,7 @@ std::string output_of(const std::string& command) {
   return output;
 }
 
-// Decodes a file with the browser's decoder in Node. Returns processor time and memory.
+// Decodes a file with the browser's decoder in Node. Returns the processor time and the memory.
 WasmDecode decode_in_wasm(const char* pmesh) {
   WasmDecode took;
   std::istringstream(output_of(std::string("node '" VITRINE_SOURCE_DIR
@@ -87,11 +88,11 @@ MedianPair build_and_simplify(const BenchmarkModel& model) {
                     [&] { return seconds([&] { meshopt_simplify_to(flat, one_percent); }); });
 }
 
-// Returns the peak memory of `vitrine build` with one thread per core.
+// Returns the peak memory, in bytes, of `vitrine build` with one thread per core.
 double peak_bytes(const BenchmarkModel& model, const std::string& placement) {
   const TemporaryFile mesh(model.file), pmesh({}, ".pmesh");
   const std::string output = output_of(std::string("'" VITRINE_BIN_DIR "/vitrine' build '") +
-                                       mesh.path() + "' -o '" + pmesh.path() + "' --bits " +
+                                       mesh.path() + "' -o '" + pmesh.path() + "' --force --bits " +
                                        std::to_string(kBits) + " --json --placement " + placement);
   return nlohmann::json::parse(output)["peak_rss_bytes"].get<double>();
 }
@@ -107,6 +108,17 @@ void memory_of_builds(Report& report, const BenchmarkModel& model) {
     report.add({"build." + model.name, std::string(placement) + "_bytes_per_triangle", bytes,
                 triangles, bytes / triangles, is_large(model) ? kMaxBuildBytes : kNoThreshold});
   }
+}
+
+// Compares the wall times of builds on two threads and on one. Has no limit, because wall times
+// depend on the machine's other load.
+void threads_of_builds(Report& report, const BenchmarkModel& model) {
+  const auto on = [&](unsigned threads) {
+    return
+        [&model, threads] { return wall_seconds([&] { build_on(model.file, kBits, threads); }); };
+  };
+  compare(report, "build." + model.name, "time_of_2_threads_ratio_to_1", interleave(on(2), on(1)),
+          kNoThreshold);
 }
 
 }  // namespace
@@ -135,6 +147,7 @@ void builds(Report& report, const BenchmarkModel& model, const BenchmarkModel& l
   const MedianPair common = build_and_simplify(model);
   compare(report, "build", "ratio_to_meshopt_simplify", common, at_most(kMaxBuild, model));
   memory_of_builds(report, largest);
+  threads_of_builds(report, largest);
   if (&largest == &model) return;
   const MedianPair large = build_and_simplify(largest);
   const std::string what = "build." + largest.name;

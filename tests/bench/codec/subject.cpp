@@ -39,6 +39,10 @@ Bytes build(std::span<const std::uint8_t> file, int bits, Placement placement,
   return checked(build_model(file, options, {})).file;
 }
 
+Bytes build_on(std::span<const std::uint8_t> file, int bits, unsigned threads) {
+  return checked(build_model(file, {.bits = bits, .threads = threads}, {})).file;
+}
+
 Bytes build_in_one_region(std::span<const std::uint8_t> file, int bits) {
   BuildOptions options;
   options.bits = bits;

@@ -12,8 +12,8 @@
 namespace vitrine::bench {
 namespace {
 
-// Range in which errors are compared, as shares of the faces or bytes of the default's finest
-// level.
+// Range in which errors are compared, as shares of the faces or bytes of the default variant's
+// finest level.
 constexpr double kSmallest = 0.01, kLargest = 0.5;
 constexpr int kSteps = 8;
 
@@ -32,9 +32,9 @@ ErrorCurves measure_levels(const BenchmarkModel& model, Placement placement, Col
   return error_curves(build(model.file, kBits, placement, order), model.clean);
 }
 
-// Returns the geometric mean of the errors of `levels`, as multiples of the errors of `standard` at
-// equal faces or equal bytes. Takes samples evenly on a logarithmic scale, in the range in which
-// both curves have levels.
+// Returns the error of `levels` divided by that of `standard`, at equal faces or equal bytes. Takes
+// the geometric mean over the range in which both curves have levels, at points evenly spaced on a
+// logarithmic scale.
 double mean_ratio(const std::vector<ErrorPoint>& levels, const std::vector<ErrorPoint>& standard) {
   const double finest = standard.back().x * kLargest;
   const double coarsest =

@@ -38,7 +38,7 @@ void put(std::ostream& out, const T& value) {
   out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Numbers the grid points of all faces, in the order of the faces.
+// Numbers the vertices of all subdivided faces, in the order of the scan's faces.
 class Numbering {
  public:
   // Cuts each edge into `n` parts.
@@ -57,8 +57,8 @@ class Numbering {
 
   std::uint32_t count() const { return count_; }
 
-  // Returns the number of point `i` of row `row` in a face. A row begins on the edge from corner 0
-  // to corner 2 and has n - row + 1 points.
+  // Returns the number of point `i` in row `row` of a face. Row 0 begins at corner 0. A row begins
+  // on the edge from corner 0 to corner 2 and has n - row + 1 points.
   std::uint32_t at(std::uint32_t face, std::uint32_t row, std::uint32_t i) const {
     const std::uint32_t rest = n_ - row - i;  // steps from the edge opposite to corner 0
     const auto [a, b, c] = scan_.faces[face];
@@ -78,8 +78,8 @@ class Numbering {
 
   const TriangleMesh& scan_;
   std::uint32_t n_, count_ = 0;
-  // The numbers of each vertex of the scan, of each edge's first inner point, and of each face's
-  // first inner point.
+  // Indices in the new mesh. corner_ holds that of each vertex of the scan. edge_ and inside_ hold
+  // that of the first inner point of each edge and of each face.
   std::vector<std::uint32_t> corner_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edge_;
   std::vector<std::uint32_t> inside_;
@@ -106,7 +106,7 @@ class Writer {
   }
 
  private:
-  // Writes the points of face `f` that no earlier face has, in the order of their numbers.
+  // Writes the points of face `f` that belong to no earlier face, in the order of their numbers.
   void write_vertices(std::uint32_t f) {
     points_.clear();
     for (std::uint32_t row = 0; row <= n_; ++row) {

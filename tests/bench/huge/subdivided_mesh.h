@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a mesh of any size from a small scan. Cuts each triangle into n² triangles. Moves the new
-// vertices along the scan's normals by waves of several lengths, so that they add detail.
+// Makes a mesh of any size from a small scan. Cuts each triangle into n² triangles. Waves of
+// several lengths move the new vertices along the scan's normals, to add detail.
 #pragma once
 
 #include <cstdint>

@@ -32,9 +32,9 @@ double top(const TriangleMesh& mesh) {
   return std::ranges::max_element(mesh.positions, {}, height)->z;
 }
 
-// Estimates the vertical offset of the points from the surface; ignores points at least `reach`
+// Estimates the vertical offset of the points from the surface. Ignores points at least `reach` mm
 // away. On a steep surface, the closest point says little about height, so each point is weighted
-// by its normal's z component.
+// by the z component of its normal.
 double rise(const std::vector<Vec3>& points, const TriangleBvh& surface, double reach) {
   double sum = 0, weight = 0;
   for (const Vec3& p : points) {
@@ -86,7 +86,7 @@ Accuracy accuracy(const TriangleMesh& scan, const Truth& truth) {
 }
 
 TriangleMesh at_height_of(const TriangleMesh& scan, const TriangleMesh& truth) {
-  // `reach`, in mm, falls from the first value to the second. Points farther away do not count.
+  // `reach`, in mm, decreases from kFarthest to kNearest. Points farther away do not count.
   constexpr double kFarthest = 8, kNearest = 0.2;
   const TriangleBvh surface(truth);
   std::vector<Vec3> points = points_on(scan, kAlignSamples);

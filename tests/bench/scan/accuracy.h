@@ -8,7 +8,7 @@
 namespace vitrine::bench {
 
 struct Distances {
-  double rms = 0, p95 = 0;  // mm
+  double rms = 0, p95 = 0;  // mm; p95: 95th percentile
   double within = 0;        // share of points closer than kCovered
 };
 inline constexpr double kCovered = 0.1;  // mm
@@ -23,10 +23,10 @@ struct Accuracy {
 Distances distances(const TriangleMesh& from, const TriangleMesh& to);
 Accuracy accuracy(const TriangleMesh& scan, const Truth& truth);
 
-// Moves the scan onto the truth along z only, because a scanner does not know the height of its
-// table.
+// Moves the scan onto the truth along z only. A scanner does not know the height of its table, so
+// this offset is not an error of the scan.
 TriangleMesh at_height_of(const TriangleMesh& scan, const TriangleMesh& truth);
-// Moves the scan onto the truth by a rigid registration that starts at its present position.
+// Moves the scan onto the truth by rigid registration, starting at its present position.
 TriangleMesh aligned(const TriangleMesh& scan, const TriangleMesh& truth);
 
 }  // namespace vitrine::bench

@@ -10,7 +10,7 @@
 namespace vitrine::bench {
 
 std::vector<Profile> cast_profiles(const TriangleMesh& object, int steps, double row_mm) {
-  constexpr double kOutside = 200;  // mm from the axis; beyond all objects
+  constexpr double kOutside = 200;  // mm from the axis, outside all objects
   const rig::Solid solid(object);
   const auto height = [](const Vec3& p) { return p.z; };
   const double top = std::ranges::max_element(object.positions, {}, height)->z;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated perfect scanner: makes profiles by casting rays from outside towards the axis.
+// A simulated perfect scanner. It makes profiles by casting rays from outside towards the axis.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ namespace vitrine::bench {
 // the outermost point of `object` in the profile's half plane.
 std::vector<Profile> cast_profiles(const TriangleMesh& object, int steps, double row_mm);
 
-// Adds normally distributed noise to rho of every point. `deviation` is the standard deviation in
-// mm.
+// Adds normally distributed noise to the rho of every point. `deviation` is the standard deviation
+// in mm.
 void add_noise(std::vector<Profile>& profiles, double deviation);
 
 }  // namespace vitrine::bench

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
 constexpr int kStops = 10;
-constexpr double kMostMs = 100;  // limit for the slowest stop
+constexpr double kMostMs = 100;  // limit in milliseconds for the slowest stop
 
 void wait_until(const std::function<bool()>& condition) {
   const auto end = Clock::now() + std::chrono::minutes(1);
@@ -31,7 +31,7 @@ void wait_until(const std::function<bool()>& condition) {
   }
 }
 
-// Sends an operator's requests to the daemon that uses a data folder.
+// Sends an operator's requests to the daemon whose data folder is given.
 class Operator {
  public:
   explicit Operator(const std::filesystem::path& folder)
@@ -52,8 +52,8 @@ class Operator {
   std::uint16_t port_ = 0;
 };
 
-// Lights the laser, turns the table and sends an emergency stop. Returns the milliseconds until
-// laser and motor are off.
+// Switches the laser on, turns the table and sends an emergency stop. Returns the milliseconds
+// until laser and motor are off.
 double stop_once(const Operator& caller, const std::filesystem::path& door) {
   if (caller.post("laser", R"({"on": true})") != 200)
     throw std::runtime_error("the laser does not light");

@@ -23,7 +23,7 @@ class Table {
                                      rig::optics_of(rig::Realism{}.seed));
   }
 
-  // over_speckle() and over_exposure() use half the steps, which are enough to show the
+  // over_speckle() and over_exposure() use half the steps. These are enough to show the
   // differences.
   void over_speckle() {
     for (const double speckle : {0.33, 0.5, 0.7, 1.0}) {
@@ -42,7 +42,7 @@ class Table {
       add(fmt::format("exposure_{:.0f}_us", us), scanner.scan(steps_ / 2, us), calibration);
   }
 
-  // Uses one set of pictures for all rows, so that they share the same noise.
+  // Uses the same pictures for all rows, so that all rows have the same noise.
   void over_steps_and_degree() {
     SimulatedScanner scanner(truth_.mesh, {});
     const CalibrationInput target = scanner.picture_target();

@@ -12,7 +12,8 @@
 namespace vitrine::bench {
 namespace {
 
-// Limits: rms and 95th percentile of the distances, in mm; share of points that are not covered.
+// Limits: rms and 95th percentile of the distances, in mm; share of the points that are not
+// covered.
 constexpr double kRms = 0.05, kP95 = 0.12, kUncovered = 0.03;
 constexpr int kSteps = 720, kQuickSteps = 90;
 
@@ -30,8 +31,8 @@ void scan_and_publish(const RigFolder& folder, const Object& object, int steps) 
   at_rig(folder, object, steps,
          vitrine + " calibrate --config rig.json --json > calibration.json\n" + vitrine +
              " scan --config rig.json -o scan.ply --json > scan.json\n" + vitrine +
-             " build scan.ply -o scan.pmesh --json > build.json\n" + vitrine +
-             " decode scan.pmesh -o decoded.ply --json > decode.json\n");
+             " build scan.ply --force -o scan.pmesh --json > build.json\n" + vitrine +
+             " decode scan.pmesh --force -o decoded.ply --json > decode.json\n");
 }
 
 void report_calibration(Report& report, const std::string& what, const RigFolder& folder) {

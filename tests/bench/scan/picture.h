@@ -9,7 +9,8 @@
 
 namespace vitrine::bench {
 
-// Writes a picture NAME.png of a mesh whose z axis points upwards, if the options request pictures.
+// Writes a picture NAME.png of a mesh whose z axis points upwards. If the options have no folder
+// for pictures, writes no file.
 void show(const Options& options, const std::string& name, const TriangleMesh& mesh);
 
 }  // namespace vitrine::bench

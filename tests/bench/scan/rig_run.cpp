@@ -2,7 +2,7 @@
 #include "rig_run.h"
 #include "support/product_names.h"
 
-#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp and system are POSIX's
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp and system are POSIX
 
 #include <fstream>
 #include <stdexcept>

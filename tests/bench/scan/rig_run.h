@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a whole scan with the installed programs and a separate simulated rig.
+// Runs a whole scan with the installed programs and a simulated rig in a process of its own.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace vitrine::bench {
 
-// A folder that the destructor removes.
+// A temporary folder, which the destructor removes.
 class RigFolder {
  public:
   RigFolder();
@@ -28,11 +28,11 @@ class RigFolder {
 // Returns the path of the program `name` in double quotes, for the shell.
 std::string program(const char* name);
 
-// Runs a line of sh. Throws if it fails.
+// Runs a shell command line. Throws if its exit code is not 0.
 void shell(const std::string& line);
 
 // Runs the shell script `script` while a simulated rig holds `object`, scaled to a height of 80 mm.
-// The script runs in `folder` and finds the scanner's configuration there, "rig.json". Also writes
+// The script runs in `folder`, which contains the scanner's configuration, "rig.json". Also writes
 // the ground truth to "truth.ply" in `folder`. `options` are further arguments of vitrine-rig.
 void at_rig(const RigFolder& folder, const Object& object, int steps, const std::string& script,
             const std::string& options = "");

@@ -22,7 +22,7 @@ constexpr int kLengths[] = {5, 10, 15, 20};
 constexpr double kRow = 0.1;     // mm between the points of a profile at the rig
 constexpr double kNoise = 0.03;  // mm, standard deviation of a stripe point at the rig
 
-// Ratios of vertices after sampling to before at L = 5, from the known part of [WLL] table 1.
+// [WLL] table 1: number of vertices after sampling divided by the number before, at L = 5.
 constexpr double kPaperSkull = 0.2046, kPaperHead = 0.2012;
 
 struct Sampled {
@@ -38,7 +38,7 @@ class Sampler {
   Sampled by(SamplingMethod method, int length) const {
     SurfaceOptions options;
     options.noise = noise_;
-    options.sampling = {method, length};  // as in a scan, the points are smoothed first
+    options.sampling = {method, length};  // the points are smoothed first, as in a scan
     auto surface = value_of(surface_of(profiles_, options));
     return {std::move(surface.mesh), surface.report.sampled};
   }
@@ -49,7 +49,8 @@ class Sampler {
 };
 
 double kilobytes(const TriangleMesh& mesh) {
-  return static_cast<double>(value_of(write_mesh(mesh, MeshFormat::kVrml, "mm")).size()) / 1024;
+  return static_cast<double>(value_of(write_mesh(mesh, MeshFormat::kVrml, {.unit = "mm"})).size()) /
+         1024;
 }
 
 void table_row(Report& report, const std::string& what, const Sampled& all, const Sampled& few) {
@@ -63,8 +64,8 @@ void table_row(Report& report, const std::string& what, const Sampled& all, cons
   add("vrml_kb_ratio_to_all", kilobytes(few.mesh), kilobytes(all.mesh));
 }
 
-// Returns the larger of two rms distances: from the mesh to the object, and from `all` (the mesh of
-// all measured points) to the mesh.
+// Returns the larger of two rms distances: from the mesh to the object, and from `all` to the mesh.
+// `all` is the mesh of all measured points.
 double error_of(const TriangleMesh& mesh, const TriangleMesh& object, const TriangleMesh& all) {
   return std::max(distances(mesh, object).rms, distances(all, mesh).rms);
 }
@@ -73,9 +74,9 @@ double vertices_of(const Sampled& sampled) {
   return static_cast<double>(sampled.mesh.positions.size());
 }
 
-// Returns the error of adaptive sampling at the given number of vertices. Tries sampling lengths
-// from `length` downwards, and interpolates on a log-log scale between the lengths that give fewer
-// and more vertices.
+// Returns the error of adaptive sampling at the given number of vertices. Tries decreasing sampling
+// lengths, starting at `length`. Interpolates on a log-log scale between the lengths that give
+// fewer and more vertices.
 template <class Error>
 double error_at(double vertices, int length, const Sampler& sampler, const Error& error) {
   Sampled few = sampler.by(SamplingMethod::kAdaptive, length);
@@ -91,8 +92,8 @@ double error_at(double vertices, int length, const Sampler& sampler, const Error
   return error(few.mesh);
 }
 
-// Compares adaptive sampling with that of [WLL] on profiles of one object. `noisy` tells whether
-// the profiles have noise.
+// Compares adaptive sampling with the sampling of [WLL] on profiles of one object. `noisy` says
+// whether the profiles have noise.
 void judge_errors(Report& report, const std::string& what, const Sampler& sampler,
                   const TriangleMesh& object, const TriangleMesh& all, bool noisy) {
   const auto error = [&](const TriangleMesh& mesh) { return error_of(mesh, object, all); };

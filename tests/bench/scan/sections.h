@@ -21,13 +21,13 @@ struct Object {
   std::filesystem::path file;
 };
 
-// Returns the heads, busts and similar objects in the folder VITRINE_MODELS; by default, the two in
-// tests/models.
+// Returns the heads, busts and similar objects in the folder VITRINE_MODELS. Without that variable,
+// returns the two in tests/models.
 std::vector<Object> objects();
 // Returns the object with that name, or the first object if there is none.
 const Object& object_of(const std::vector<Object>& all, const std::string& name);
 
-// Reports a figure that has a fixed limit instead of a peer.
+// Reports a figure that is compared with a fixed limit, not with another program.
 inline void judge(Report& report, const std::string& what, const std::string& key, double value,
                   double limit = kNoThreshold) {
   report.add({what, key, 0, 0, value, limit});
@@ -60,8 +60,8 @@ void emergency_stop(Report& report, const Object& object);
 // milliseconds until laser and motor were off.
 int run_emergency_stops(const std::filesystem::path& folder);
 
-// Measures the baseline of speed(): turns the table and takes as many pictures as a scan of
-// `steps`, without processing. Prints the seconds.
+// Measures the baseline of speed(): turns the table and takes as many pictures as a scan of `steps`
+// steps, without processing them. Prints the seconds.
 int run_bare_camera(const std::filesystem::path& config, int steps);
 
 }  // namespace vitrine::bench

@@ -30,18 +30,18 @@ using Polygons = std::array<std::uint64_t, 4>;
 constexpr Polygons kPortrait = {57'168, 31'951, 22'729, 15'964};
 constexpr Polygons kSkull = {100'182, 55'796, 39'934, 28'526};
 
-// Sizes from [WLL] table 2, as shares of the VRML file of the finest level: the layer from b to a,
-// the base with all layers, and all levels as separate files.
+// Sizes from [WLL] table 2, as multiples of the VRML file of the finest level: the layer from b to
+// a, the base with all layers, and all levels as separate files.
 constexpr double kPaperLayer = 0.81, kPaperLayered = 1.26, kPaperFiles = 1.96;
 
 struct State {
   TriangleMesh mesh;
   LatticeMesh lattice;
-  double bytes = 0;  // length of the stream that leads to this state
+  double bytes = 0;  // length of the stream up to this state
 };
 
-// Returns the bytes that a model needs up to a given number of polygons. Interpolates between two
-// levels, because chunks are larger than the steps of the table.
+// Returns the number of bytes that a model of `polygons` polygons needs. Interpolates between two
+// levels, because chunks are larger than the differences in the table.
 double bytes_of(const Manifest& manifest, double polygons) {
   std::size_t above = 1;
   while (above + 1 < manifest.levels.size() && manifest.levels[above].faces < polygons)
@@ -63,10 +63,10 @@ State state_of(std::span<const std::uint8_t> pmesh, std::uint64_t polygons) {
 }
 
 double vrml_bytes(const TriangleMesh& mesh) {
-  return static_cast<double>(value_of(write_mesh(mesh, MeshFormat::kVrml, "mm")).size());
+  return static_cast<double>(value_of(write_mesh(mesh, MeshFormat::kVrml, {.unit = "mm"})).size());
 }
 
-// Returns the bytes of the mesh as a single file, in the encoding of base meshes.
+// Returns the bytes of the mesh as a single file, encoded like a base mesh.
 double alone(const LatticeMesh& mesh) {
   return static_cast<double>(value_of(encode_base({mesh.positions, mesh.faces, {}})).bytes.size());
 }
@@ -78,11 +78,11 @@ TriangleMesh scanned(const Object& object, int steps) {
   return value_of(mesh_of(profiles, calibration, {})).mesh;
 }
 
-// Builds a model of [WLL]'s finest level, and compares the bytes of base and layers with those of
-// that level alone.
+// Builds a model of the finest level of [WLL] table 2. Compares the bytes of base and layers with
+// those of that level alone.
 void layers_over_finest(Report& report, const std::string& what, const Polygons& polygons,
                         const State& finest) {
-  const auto file = value_of(write_mesh(finest.mesh, MeshFormat::kPly, "mm"));
+  const auto file = value_of(write_mesh(finest.mesh, MeshFormat::kPly, {.unit = "mm"}));
   const Bytes pmesh = value_of(build_model(file, {}, {})).file;
   const State a = state_of(pmesh, polygons[0]), b = state_of(pmesh, polygons[1]);
   const double single = alone(a.lattice);
@@ -98,7 +98,7 @@ void layers_over_finest(Report& report, const std::string& what, const Polygons&
 void table_two(Report& report, const Options& options, const Object& object,
                const Polygons& polygons) {
   const TriangleMesh scan = scanned(object, options.is_quick ? 360 : 720);
-  const auto file = value_of(write_mesh(scan, MeshFormat::kPly, "mm"));
+  const auto file = value_of(write_mesh(scan, MeshFormat::kPly, {.unit = "mm"}));
   const Bytes pmesh = value_of(build_model(file, {}, {})).file;
   const std::string name = "table_2." + object.name;
   std::optional<State> finest;

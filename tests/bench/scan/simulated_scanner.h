@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the simulated rig inside this process: makes the same pictures as over GigE Vision and USB,
-// and gives access to all intermediate results.
+// Runs the simulated rig inside this process. The pictures are the same as over GigE Vision and
+// USB, and all intermediate results are accessible.
 #pragma once
 
 #include <memory>
@@ -22,11 +22,11 @@ struct StripeAt {
   std::vector<StripePoint> points;
 };
 
-// Makes one profile of calibrated points for each angle; uses only every `every`-th angle.
+// Makes one profile of calibrated points for each angle, but uses only every `every`-th angle.
 std::vector<Profile> profiles_of(const std::vector<StripeAt>& stripes,
                                  const Calibration& calibration, int every = 1);
 
-// A simulated rig with one object on its table. Not for concurrent use. Throws on errors.
+// A simulated rig with one object on its table. Only one thread may use it. Throws on errors.
 class SimulatedScanner {
  public:
   // Puts `object`, in mm, on the table.

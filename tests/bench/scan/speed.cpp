@@ -18,10 +18,11 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kExtraction = 3, kSurface = 5;  // limits: ms for a stripe, s for a surface
+constexpr double kExtraction = 3, kSurface = 5;  // limits: ms per stripe, s per surface
 constexpr double kStripeNoise = 0.03;            // mm, standard deviation
 // Largest accepted time of a scan, as a multiple of the time that the camera alone takes. A scan
-// processes one pair of pictures while the camera takes the next, and then makes the mesh.
+// processes one pair of pictures while the camera takes the next pair, and makes the mesh at the
+// end.
 constexpr double kOverCamera = 1.25;
 
 double median(std::vector<double> values) {
@@ -59,8 +60,8 @@ double number_in(const std::filesystem::path& file) {
   return value;
 }
 
-// Compares the time of a scan with that of the camera alone. Both use the same rig, so that
-// rendering costs the same.
+// Compares the time of a scan with that of the camera alone. Both use the same rig, so the time for
+// rendering is the same.
 void whole_scan(Report& report, const Options& options, const Object& object) {
   const int steps = options.is_quick ? 45 : 720;
   const std::string count = std::to_string(steps);

@@ -16,7 +16,7 @@ Truth read_truth(const std::filesystem::path& path) {
   auto mesh = read_mesh(file);
   if (!mesh) throw std::runtime_error(path.string() + ": " + mesh.error().message);
   Truth truth{std::move(mesh->mesh), {}};
-  // After the header, each vertex has three doubles and the flag `seen` in one byte.
+  // After the header, each vertex has three coordinates as doubles and the flag `seen` in one byte.
   constexpr std::string_view kEnd = "end_header\n";
   constexpr std::ptrdiff_t kRecord = 3 * sizeof(double) + 1;
   const auto header = std::search(file.begin(), file.end(), kEnd.begin(), kEnd.end());

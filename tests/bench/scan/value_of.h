@@ -7,7 +7,8 @@
 
 namespace vitrine::bench {
 
-// Returns the value; throws the error, because a benchmark has no figures if a part of it fails.
+// Returns the value. Throws the error if there is none, because a benchmark with a failed part has
+// no results.
 template <class T>
 T value_of(Expected<T> result) {
   if (!result) throw std::runtime_error(result.error().message);

@@ -53,7 +53,7 @@ class Adaptation {
     first_guess(course, rate);
   }
 
-  // Measures how soon the server's forecasts reflect a drop of the link's rate, and whether the
+  // Measures how soon the server's forecasts follow a drop of the link's rate, and whether the
   // forecasts come true.
   void drop(double from, double to) {
     link_.shape(from);
@@ -71,8 +71,8 @@ class Adaptation {
       dropped = StreamPeer::now();
     }
     double noticed = kNever;
-    // This default counts as a forecast that never came true, so the figure fails if the server
-    // sends no forecast.
+    // The default is a forecast that never came true. So the figure fails if the server sends no
+    // forecast.
     ReceivedForecast worst{.promise = {}, .at = 0};
     bool any = false;
     for (const ReceivedForecast& heard : course.forecasts()) {
@@ -90,7 +90,7 @@ class Adaptation {
   }
 
   // Measures the time from a request for a new view to the first slice for that view. Right after
-  // the request, the client opens a model that does not exist. Slices that arrive after the
+  // the request, the client opens a model that does not exist. Slices that arrive after the error
   // response to this second request were chosen for the new view.
   void view_change(double rate) {
     link_.shape(rate);
@@ -103,7 +103,8 @@ class Adaptation {
       const auto event = peer->next();
       bytes += static_cast<double>(event.bytes);
       if (!event.message || !std::holds_alternative<DoneMessage>(*event.message)) continue;
-      // The model is too small: it arrived completely before the view changed.
+      // The model arrived completely before the view changed, so it is too small for this
+      // measurement.
       return figures_.add({what, "seconds_queued", 0, 0, kNever, 0.15});
     }
     peer->say(WantMessage{.turn = 2, .target = Want(side_view(manifest_, -1))});
@@ -122,13 +123,14 @@ class Adaptation {
 
  private:
   static constexpr double kSeconds = 2;
-  static constexpr double kShortest = 0.1;  // seconds; shorter forecasts are not judged
+  static constexpr double kShortest = 0.1;  // seconds: shorter forecasts are not judged
 
   std::string name(const char* what, double rate) const {
     return scan_ + "." + what + "_" + std::to_string(static_cast<int>(rate / 1000));
   }
 
-  // The first forecast must be marked as not measured and must not be too optimistic.
+  // The server must mark the first forecast as not measured. The forecast must not be too
+  // optimistic.
   void first_guess(const DetailProgress& course, double rate) {
     ReceivedForecast first{.promise = {}, .at = 0};
     if (!course.forecasts().empty() && !course.forecasts()[0].promise.measured)

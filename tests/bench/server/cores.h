@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assigns work to processor cores and measures their time.
+// Assigns work to processor cores, and measures processor time.
 #pragma once
 
 #include <sched.h>
@@ -9,8 +9,8 @@ namespace vitrine::bench {
 
 inline constexpr int kServerCore = 0, kClientCore = 1;
 
-// Keeps this thread, and processes that it starts meanwhile, on one core. Throws if the core is not
-// available.
+// Keeps this thread, and processes that it starts while this object exists, on one core. Throws if
+// the core is not available.
 class OnCore {
  public:
   explicit OnCore(int core);

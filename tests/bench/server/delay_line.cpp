@@ -47,7 +47,7 @@ void DelayLine::Way::take(Clock::time_point due) {
 void DelayLine::Way::give(Clock::time_point now) {
   for (; !packets.empty() && packets.front().due <= now; packets.pop_front()) {
     const std::vector<char>& bytes = packets.front().bytes;
-    // A packet that does not fit into the device's queue is lost, as in a real network.
+    // A packet that does not fit into the device's queue is lost, as on a real network.
     [[maybe_unused]] const ssize_t written = ::write(to, bytes.data(), bytes.size());
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cable between two TUN devices that delays packets. Replaces netem, which some kernels lack.
+// A simulated cable between two TUN devices, which delays packets. Replaces netem, which some
+// kernels lack.
 #pragma once
 
 #include <chrono>
@@ -18,7 +19,7 @@ FileDescriptor tun_device(const std::string& name);
 
 class DelayLine {
  public:
-  // Carries packets both ways and in order. Each packet takes `delay`.
+  // Carries packets in both directions and in order. Each packet takes `delay`.
   DelayLine(FileDescriptor a, FileDescriptor b, std::chrono::microseconds delay);
   ~DelayLine();
   DelayLine(const DelayLine&) = delete;
@@ -34,8 +35,8 @@ class DelayLine {
     int from, to;
     std::deque<Packet> packets = {};
 
-    void take(Clock::time_point due);  // reads the packets that are available
-    void give(Clock::time_point now);  // writes the packets that are due
+    void take(Clock::time_point due);  // reads all available packets
+    void give(Clock::time_point now);  // writes all packets that are due
   };
 
   void run();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Follows, on the client's side, a request for the detail that can arrive within `seconds`. Records
-// the data that has arrived, and when each of the server's forecasts came true.
+// Follows a detail request on the client's side. The request asks for the detail that can arrive
+// within a number of seconds. Records the data that has arrived, and when each of the server's
+// forecasts came true.
 #pragma once
 
 #include <limits>
@@ -16,15 +17,15 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct ReceivedForecast {
   PromiseMessage promise;
-  double at;             // seconds, when the forecast arrived
-  double kept = kNever;  // seconds, when all data in the forecast had arrived
+  double at;             // time in seconds at which the forecast arrived
+  double kept = kNever;  // time in seconds at which all forecast data had arrived
 
   double ratio() const { return (kept - at) / promise.seconds; }
 };
 
 class DetailProgress {
  public:
-  // Starts with a client that has already received the head, which is the header and the base mesh.
+  // Assumes that the client has already received the head, which is the header and the base mesh.
   explicit DetailProgress(const Manifest& manifest);
 
   void take(const StreamPeer::Event& event);
@@ -32,7 +33,7 @@ class DetailProgress {
   std::uint64_t received() const { return received_; }  // bytes of chunks received so far
   std::uint32_t level() const;  // the finest level that is complete in all regions
   bool is_done() const { return done_ != kNever; }
-  double done() const { return done_; }  // seconds, when the server reported completion
+  double done() const { return done_; }  // time in seconds at which the server reported completion
   const std::vector<ReceivedForecast>& forecasts() const { return forecasts_; }
 
  private:

@@ -24,7 +24,7 @@ struct Shown {
   std::string id;
 };
 
-// A visitor whose viewer has no connection and nothing cached.
+// A visitor whose viewer has an empty cache and no open connection.
 class ColdVisitor {
  public:
   ColdVisitor(Medians& figures, const std::vector<const Scan*>& scans)
@@ -44,7 +44,7 @@ class ColdVisitor {
 
  private:
   struct Times {
-    double start, first, end;  // first: when the first byte of the response arrived
+    double start, first, end;  // seconds; first: arrival of the response's first byte
   };
 
   void over_http(const Shown& shown) {
@@ -70,7 +70,7 @@ class ColdVisitor {
     report("first_triangle_websocket", shown.scan, times, peer.head);
   }
 
-  // The connection and the request take two round trips. A further request would take a third.
+  // The connection and the request take two round trips. A second request would take a third.
   void report(const char* way, const Scan& scan, const Times& times,
               const std::vector<std::uint8_t>& head) {
     check(head);
@@ -82,8 +82,8 @@ class ColdVisitor {
     figures_.add({what, "seconds", took, least, took / least, 1.5});
   }
 
-  // Throws unless the received bytes are exactly those that the first picture needs: header and
-  // base mesh.
+  // Throws unless the received bytes are exactly the head (header and base mesh), which is all that
+  // the first picture needs.
   static void check(const std::vector<std::uint8_t>& head) {
     const auto manifest = parse_header(head);
     const bool is_whole = manifest && manifest->head_bytes() == head.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients that send their next request as soon as the last response is complete.
+// HTTP clients that send the next request as soon as the last response is complete.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@ namespace vitrine::bench {
 struct Load {
   std::uint16_t port;
   std::vector<std::string> requests;  // complete HTTP requests; sent in this order, repeatedly
-  int status;                         // expected status of every response
+  int status;                         // expected HTTP status of every response
   std::size_t connections = 64;
   std::chrono::milliseconds time{1000};
 };
@@ -23,7 +23,7 @@ struct Delivery {
   std::uint64_t answers = 0;
 };
 
-// Runs the clients on this thread. The kernel discards the bodies, so that the clients do not limit
+// Runs the clients on this thread. The kernel discards the bodies, so that reading does not limit
 // the rate. Throws if a response is not as expected.
 Delivery deliver(const Load& load);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench-server: compares the daemon with its peers on the loopback interface. The exit code is 0
-// only if every ratio is within its threshold.
+// bench-server: compares the daemon with similar programs on the loopback interface. The exit code
+// is 0 only if every ratio is within its threshold.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

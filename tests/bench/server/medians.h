@@ -14,7 +14,7 @@ inline double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// Collects figures of repeated runs. For each figure, reports the run with the median ratio.
+// Collects figures of repeated runs. Reports, for each figure, the run with the median ratio.
 class Medians {
  public:
   void add(Figure figure) {

@@ -24,10 +24,10 @@ namespace {
 
 constexpr std::size_t kScans = 64, kPieceBytes = 16 * 1024, kReplicas = 3;
 constexpr const char *kOne = "one",
-                     *kThree = "three";  // names of the hosts that clients request from nginx
+                     *kThree = "three";  // host names in the clients' requests to nginx
 
-// Runs four daemons on one bucket and one database: one behind its own host name, three behind
-// another.
+// Runs four daemons on one bucket and one database. One daemon has a host name of its own; the
+// other three share another.
 class Replicas {
  public:
   Replicas() : installation_(open_installation(elsewhere_.place()).value()) {
@@ -104,7 +104,7 @@ std::string request(const std::string& target, const std::string& host, const st
   return "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + more + "\r\n";
 }
 
-// Measures requests per second with three daemons, divided by those with one.
+// Measures the requests per second with three daemons, as a multiple of those with one daemon.
 class Throughput {
  public:
   Throughput(const Replicas& replicas, std::uint16_t port, const Effort& effort)
@@ -134,7 +134,7 @@ class Throughput {
         load.requests.push_back(request_of(i, host));
       return deliver(load).requests_per_second;
     };
-    rate(kThree);  // lets each daemon fill its copies and caches before the measurement
+    rate(kThree);  // fills the caches of each daemon before the measurement
     std::vector<double> ones, threes, ratios;
     for (int run = 0; run < 5; ++run) {
       ones.push_back(rate(kOne));
@@ -150,8 +150,8 @@ class Throughput {
   const Effort effort_;
 };
 
-// Returns the memory, in bytes per viewer, that `count` idle viewers need in the daemons behind
-// `host`.
+// Returns the memory, in bytes per viewer, that the daemons behind `host` need for `count` idle
+// viewers.
 double bytes_per_viewer(const Replicas& replicas, std::uint16_t port, const std::string& host,
                         std::size_t count) {
   std::vector<Viewer> viewers;
@@ -161,7 +161,7 @@ double bytes_per_viewer(const Replicas& replicas, std::uint16_t port, const std:
       viewers.back().greet();
     }
   };
-  connect(10 * kReplicas);  // the first viewers cause allocations that later ones share
+  connect(10 * kReplicas);  // the first viewers cause allocations that later viewers share
   const double before = replicas.resident(host);
   connect(count);
   return (replicas.resident(host) - before) / static_cast<double>(count);

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Size of the model's chunk in bytes. It is more than any viewer receives during a measurement.
+// Size of the model's chunk in bytes. No viewer receives that much during a measurement.
 constexpr std::size_t kChunk = 64u << 20;
 
 class Scale {
@@ -29,22 +29,23 @@ class Scale {
       : id_(folder_.publish("a scan", test::tiny_pmesh("a base mesh", std::string(kChunk, 'c')))),
         daemon_(folder_.path(), {"--max-connections", "13000", "--max-connections-per-address", "0",
                                  "--request-rate", "0", "--idle-timeout", "3600"}) {
-    connect(1);  // the first viewer causes allocations that later ones share
+    connect(1);  // the first viewer causes allocations that later viewers share
     viewers_[0].say(R"({"type":"want","level":1})");
     while (viewers_[0].payload() == 0)
       viewers_[0].refine();
     viewers_.clear();
   }
 
-  // Connects `count` more idle viewers. Returns the daemon's resident bytes per viewer.
+  // Connects `count` more idle viewers. Returns the bytes of resident memory that the daemon needs
+  // for each.
   double idle(std::size_t count) {
     const double before = resident();
     connect(count);
     return (resident() - before) / static_cast<double>(count);
   }
 
-  // Lets `count` viewers refine for `time`. Returns the bytes that the slowest and the median
-  // viewer received.
+  // Makes `count` viewers refine for the duration `time`. Returns the bytes that the slowest and
+  // the median viewer received.
   std::pair<double, double> refine(std::size_t count, std::chrono::milliseconds time) {
     const FileDescriptor events(::epoll_create1(EPOLL_CLOEXEC));
     std::vector<std::uint64_t> before;
@@ -68,7 +69,8 @@ class Scale {
   }
 
   // Connects `count` viewers that request everything, acknowledge it and read nothing. Returns the
-  // daemon's resident bytes for each, beyond the memory of idle viewers.
+  // bytes of resident memory that the daemon needs for each, in addition to those for an idle
+  // viewer.
   double never_reading(std::size_t count) {
     connect(count);
     const double before = resident();
@@ -77,7 +79,7 @@ class Scale {
       viewer.say(R"({"type":"want","level":1})");
     }
     double now = before, last = 0;
-    while (now > last) {  // until the buffers are full
+    while (now > last) {  // ends when the buffers are full
       last = now;
       ::poll(nullptr, 0, 2000);
       now = resident();
@@ -86,7 +88,7 @@ class Scale {
   }
 
  private:
-  // Connects in rounds, so that the kernel's queue of new connections does not overflow.
+  // Connects in rounds. Otherwise the kernel's queue of new connections would overflow.
   void connect(std::size_t count) {
     constexpr std::size_t kRound = 100;
     while (count > 0) {
@@ -126,7 +128,7 @@ void scale(Report& report, const Effort& effort) {
     }
     figures.report(report);
   }
-  // Uses a new daemon: one with earlier viewers would reuse their memory.
+  // Uses a new daemon, because a daemon that has had viewers would reuse their memory.
   const double stuck = Scale().never_reading(viewers / 10);
   report.add({"never_reading", "ratio_to_a_chunk", stuck, kOneChunk, stuck / kOneChunk, 1});
 }

@@ -14,8 +14,8 @@ struct Scan {
 };
 
 // Returns the model `name` from the folder VITRINE_MODELS, or else from tests/models. Uses
-// NAME.pmesh, or builds it from NAME.ply or NAME.obj. Keeps the model for later calls. Throws if
-// there is no such file.
+// NAME.pmesh, or builds it from NAME.ply or NAME.obj. Caches the model. Throws if there is no such
+// file.
 const Scan& scan(const std::string& name);
 
 // The model used for the adaptation figures.

@@ -20,7 +20,7 @@ void enter(const FileDescriptor& space) {
 }
 
 FileDescriptor here() {
-  // Without O_CLOEXEC, so that tools started later inherit it.
+  // Opens the file without O_CLOEXEC, so that tools started later inherit the descriptor.
   return FileDescriptor(::open("/proc/thread-self/ns/net", O_RDONLY));
 }
 

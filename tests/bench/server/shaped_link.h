@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two network namespaces, one for the server and one for the client. A link with a limited rate to
-// the client joins them. Needs root, ip and tc.
+// Two network namespaces, one for the server and one for the client, joined by a link. The link's
+// rate to the client is limited. Needs root, ip and tc.
 #pragma once
 
 #include <chrono>
@@ -17,8 +17,9 @@ inline constexpr std::chrono::milliseconds kLongWay{150};  // round trip of a di
 
 class ShapedLink {
  public:
-  // `round_trip` is the time for a packet and its reply. This thread, and processes that it starts,
-  // are in the server's namespace until at_client(). Throws if the kernel or a tool refuses.
+  // `round_trip` is the time for a packet and its reply. Until at_client() is called, this thread
+  // and the processes that it starts are in the server's namespace. Throws if the kernel or a tool
+  // refuses.
   explicit ShapedLink(std::chrono::milliseconds round_trip = {});
   ~ShapedLink();
   ShapedLink(const ShapedLink&) = delete;
@@ -26,7 +27,7 @@ class ShapedLink {
 
   void at_server() const;
   void at_client() const;
-  // Limits the rate to the client. Leaves this thread in the client's namespace.
+  // Limits the rate to the client. Afterwards, this thread is in the client's namespace.
   void shape(double bytes_per_second);
 
   static constexpr const char* kServer = "10.99.0.1";

@@ -6,7 +6,7 @@
 
 namespace vitrine::bench {
 
-// Returns a view from the right side of the model (1) or the left (-1), with errors of at most a
+// Returns a view from the model's right (1) or left (-1) side. The view allows errors of at most a
 // hundredth of a pixel.
 View side_view(const Manifest& manifest, double side);
 

@@ -26,7 +26,7 @@ using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// Puts the load of a museum's day on a daemon in ten minutes: visitors of each kind come, send
+// Puts a museum's load of a whole day on a daemon in ten minutes. Visitors of each kind come, send
 // their requests and leave, repeatedly.
 class Soak {
  public:
@@ -34,7 +34,7 @@ class Soak {
       : scan_(scan("demosthenes")),
         id_(folder_.publish("a scan", scan_.pmesh)),
         bearer_("Authorization: Bearer " + folder_.token(Role::kOperator) + "\r\n"),
-        // With these settings, caches are full before the second half begins.
+        // With these settings, the caches are full before the second half of the run begins.
         daemon_(folder_.path(), {"--export-cache", "8000000", "--collect-after", "10"}) {}
 
   struct Sample {
@@ -72,7 +72,7 @@ class Soak {
   }
 
  private:
-  // Waits for a short pause. Returns whether time is left for another visit.
+  // Pauses for the duration `breath`. Returns whether there is time for another visit.
   bool is_on(milliseconds breath) {
     std::this_thread::sleep_for(breath);
     return Clock::now() < end_;
@@ -160,7 +160,7 @@ class Soak {
         {"GET /api/v1/models/none HTTP/1.1\r\nHost: a\r\n\r\n", 404},
         {"POST /api/v1/models HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n", 401},
         {"GET /api/v1/models/" + id_ + "/export.ply?triangles=x HTTP/1.1\r\nHost: a\r\n\r\n", 400},
-        {good.substr(0, 9), 0},  // an incomplete request
+        {good.substr(0, 9), 0},  // an incomplete request, which gets no response
     };
     for (std::size_t i = 0; is_on(milliseconds(20)); ++visits_, ++i) {
       const auto& [request, status] = wrong[i % std::size(wrong)];
@@ -200,7 +200,8 @@ class Soak {
   std::atomic<std::size_t> visits_ = 0;
 };
 
-// Fits a line to the samples from `first` on. Returns the growth of memory in kilobytes per minute.
+// Fits a line to the samples from `first` on. Returns its slope: the growth of memory in kilobytes
+// per minute.
 double slope(const std::vector<Soak::Sample>& samples, std::size_t first) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t i = first; i < samples.size(); ++i) {
@@ -214,8 +215,9 @@ double slope(const std::vector<Soak::Sample>& samples, std::size_t first) {
 }  // namespace
 
 void soak(Report& report, const Effort& effort) {
-  // A few thousand visits per minute may leave less than 100 bytes each. A leaked session, the
-  // smallest object that a visit could leave behind, has thousands of bytes.
+  // Limit of the growth, in kilobytes per minute. At a few thousand visits per minute, it allows
+  // less than 100 bytes per visit. A leaked session, the smallest object that a visit could leave
+  // behind, has thousands of bytes.
   constexpr double kFlat = 256;
   const std::chrono::seconds time(effort.is_quick ? 60 : 600);
   Soak soak;

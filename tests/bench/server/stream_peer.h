@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client of pmesh.v1 that acknowledges slices and records when they arrive.
+// A client of pmesh.v1 that acknowledges slices and records their times of arrival.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,8 @@ namespace vitrine::bench {
 
 class StreamPeer {
  public:
-  // Connects to the stream of a model. The server sends the head first if `query` requests it.
+  // Connects to the stream of a model. The server sends the head first if the query string `query`
+  // requests it.
   StreamPeer(std::uint16_t port, const std::string& model, const char* address,
              const std::string& query = "")
       : client_(port, "/api/v1/models/" + model + "/stream" + query, "pmesh.v1", "", address) {}
@@ -28,7 +29,7 @@ class StreamPeer {
     std::optional<SliceHeader> slice = {};
     std::size_t bytes = 0;  // length of the slice's payload
     std::optional<ServerMessage> message = {};
-    double at = 0;  // seconds, when the message or slice arrived
+    double at = 0;  // time in seconds at which the message or slice arrived
   };
   Event next();
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kModels = 64, kChunkBytes = 16 * 1024;
 
-// Publishes models of one chunk each, and stores the same bytes as files for nginx.
+// Publishes models of one chunk each, and stores the same chunks as files for nginx.
 class Gallery {
  public:
   Gallery() {
@@ -88,7 +88,7 @@ struct Peer {
   pid_t process;
 };
 
-// The figures of one side in one run.
+// The figures of one of the two servers in one run.
 struct Run {
   Delivery delivery;
   double processor = 0;  // processor seconds per response
@@ -103,7 +103,7 @@ Run measure(const Peer& peer, Load load) {
   return run;
 }
 
-// Alternates runs of both sides. Each figure is the median of the ratios of all pairs of runs.
+// Runs both servers alternately. Each figure is the median of the ratios of all pairs of runs.
 class Comparison {
  public:
   Comparison(const Peer& ours, const Peer& nginx, const Effort& effort)
@@ -154,7 +154,7 @@ std::string request(const std::string& target, const std::string& fields = "") {
   return "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n";
 }
 
-// Returns the header field If-None-Match with the entity tag of a peer's response. Throws unless
+// Returns a header field If-None-Match with the entity tag of the peer's response. Throws unless
 // the response has status 200, the body `body` and an entity tag.
 std::string checked_etag(const Peer& peer, const std::string& target, const std::string& body) {
   const test::HttpAnswer answer = test::http_get(peer.port, target);
@@ -190,7 +190,7 @@ void throughput(Report& report, const Effort& effort) {
   }
   Comparison comparison(ours, theirs, effort);
   comparison.run(chunks, chunks);
-  report.add(comparison.figure("chunk_get", rate, 0.95, true));
+  report.add(comparison.figure("chunk_get", rate, 1.2, true));
   report.add(comparison.figure("chunk_get_processor", processor, kNoThreshold, false));
   report.add(comparison.figure("p99", p99, 1.5, false));
   comparison.run(our_manifests, their_manifests);

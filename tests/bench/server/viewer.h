@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A WebSocket client with a non-blocking socket.
+// A WebSocket client on a non-blocking socket.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace vitrine::bench {
 // A viewer on one connection. Throws if the server closes the connection.
 class Viewer {
  public:
-  // Connects to the model's stream at 127.0.0.1. `host` is the value of the Host header field.
+  // Connects to the model's stream at 127.0.0.1. `host` is the value of the request's Host field.
   Viewer(std::uint16_t port, const std::string& model, const std::string& host = "localhost");
 
   int socket() const { return socket_.get(); }

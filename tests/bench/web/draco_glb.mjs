@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a GLB whose only mesh is a Draco buffer (KHR_draco_mesh_compression), as other viewers load it.
-import { createRequire } from "node:module";
+// Makes a GLB whose only mesh is compressed by Draco (KHR_draco_mesh_compression), a format that
+// other viewers load.
+import { readFile } from "node:fs/promises";
 
-const { createEncoderModule } = createRequire(new URL("../../../web/package.json", import.meta.url))("draco3d");
+const kEncoder = new URL("../../../web/node_modules/three/examples/jsm/libs/draco/draco_encoder.js", import.meta.url);
 
 const kBits = 12;
+const kIndices = { 5123: Uint16Array, 5125: Uint32Array };
 
-/** Converts an uncompressed GLB, whose only mesh has just positions and indices, with Draco's strongest compression. */
+/**
+ * Compresses the positions and faces of a GLB with Draco's strongest compression. The GLB must have
+ * one uncompressed mesh.
+ */
 export async function dracoGlb(glb) {
   const { json, binary } = parsed(glb);
   const { attributes, indices, material } = json.meshes[0].primitives[0];
@@ -14,7 +19,7 @@ export async function dracoGlb(glb) {
     const { byteOffset = 0 } = json.bufferViews[json.accessors[accessor].bufferView];
     return new Kind(binary.slice(byteOffset, byteOffset + width * json.accessors[accessor].count * Kind.BYTES_PER_ELEMENT));
   };
-  const buffer = await encoded(values(attributes.POSITION, Float32Array, 3), values(indices, Uint32Array, 1));
+  const buffer = await encoded(values(attributes.POSITION, Float32Array, 3), values(indices, kIndices[json.accessors[indices].componentType], 1));
   const compressed = { bufferView: 0, attributes: { POSITION: 0 } };
   const plain = ({ bufferView, ...rest }) => rest;
   return packed({
@@ -41,7 +46,7 @@ function parsed(glb) {
 }
 
 async function encoded(positions, indices) {
-  const draco = await createEncoderModule({});
+  const { draco } = await encoderModule();
   const encoder = new draco.Encoder(), builder = new draco.MeshBuilder(), mesh = new draco.Mesh(), out = new draco.DracoInt8Array();
   builder.AddFacesToMesh(mesh, indices.length / 3, indices);
   builder.AddFloatAttributeToMesh(mesh, draco.POSITION, positions.length / 3, 3, positions);
@@ -50,6 +55,15 @@ async function encoded(positions, indices) {
   encoder.SetEncodingMethod(draco.MESH_EDGEBREAKER_ENCODING);
   const length = encoder.EncodeMeshToDracoBuffer(mesh, out);
   return Buffer.from(Uint8Array.from({ length }, (_, i) => out.GetValue(i)));
+}
+
+/**
+ * Loads the Draco encoder that three.js contains. It is a script, not a module. Returns it in an object, because a promise would
+ * call its member `then`.
+ */
+async function encoderModule() {
+  const createModule = new Function(`${await readFile(kEncoder)}; return DracoEncoderModule;`)();
+  return new Promise((resolve) => createModule({ onModuleLoaded: (draco) => resolve({ draco }) }));
 }
 
 function packed(json, binary) {

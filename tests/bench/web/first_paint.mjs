@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// first_paint.mjs BIN_FOLDER MESH [RUNS]: measures the time until the first picture, and until one with
-// an error of 1 % of the diagonal, on a line of 1.6 Mbit/s with a round trip of 150 ms. Compares Vitrine with
-// model-viewer and three.js' GLTFLoader, which load the same mesh as a Draco GLB. One static host that
-// compresses code serves everything. A "cold" browser has an empty cache, a "warm" one has the code but not the
-// model. Prints medians, and why gltf-progressive is not compared; fails unless a warm first picture takes
-// less than 1 s and at most 50 KB of the model, and a cold one less than either peer's.
+// first_paint.mjs BIN_FOLDER MESH [RUNS]: measures the time until the first picture, and until a
+// picture with an error of 1 % of the diagonal, over a line of 1.6 Mbit/s with a round trip of 150
+// ms. Compares Vitrine with model-viewer and three.js' GLTFLoader, which load the same mesh as a
+// Draco GLB. One static host that compresses code serves all three. A "cold" browser has an empty
+// cache; a "warm" browser has cached the code but not the model. Prints medians, and why
+// gltf-progressive is not compared. Fails unless a warm first picture takes less than 1 s and at
+// most 50 KB of the model, and a cold first picture takes less time than that of either peer.
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -70,12 +71,15 @@ try {
   await rm(folder, { recursive: true });
 }
 
-/** Publishes models, viewers and pages on the host. The result's `fine` is the number of triangles at which the error is at most 1 %. */
+/**
+ * Publishes models, viewers and pages on the host. `fine` in the result is the number of triangles
+ * at which the error is at most 1 %.
+ */
 async function published() {
   const vitrine = (...words) => execFileSync(join(bin, "vitrine"), words, { stdio: ["ignore", "pipe", "inherit"] });
   const file = join(folder, "model.pmesh"), plain = join(folder, "model.glb");
-  vitrine("build", mesh, "-o", file);
-  vitrine("decode", file, "-o", plain);
+  vitrine("build", mesh, "--force", "-o", file);
+  vitrine("decode", file, "--force", "-o", plain);
   const glb = await readFile(plain), { levels } = JSON.parse(vitrine("info", file, "--json"));
   const fine = levels.find(({ max_error: error }) => error <= 0.01 * diagonal(glb)).faces;
   host.add("model.pmesh", await readFile(file));
@@ -105,7 +109,7 @@ function page(body) {
   return `${line.url}/${name}`;
 }
 
-/** Measures one visit. The browser's cache is empty, or the browser has shown the page `before` twice. */
+/** Measures one visit to `url` with an empty cache. If `before` is given, first shows that page twice, to fill the cache. */
 async function visit(url, who, before, fine) {
   const context = await browser.newContext({ viewport: { width: 900, height: 700 } });
   await context.addInitScript(watch, fine);
@@ -129,7 +133,10 @@ async function shown(context, url) {
   return seen;
 }
 
-/** Runs in the page. Records when the first picture, a picture with an error of 1 %, and the complete model (`done`) appear. */
+/**
+ * Runs in the page. Records the times at which the first picture, a picture with an error of 1 %,
+ * and the complete model (`done`) appear.
+ */
 function watch(fine) {
   const paint = (window.paint = { origin: performance.timeOrigin, task: 0 });
   new PerformanceObserver((list) => list.getEntries().forEach(({ duration }) => (paint.task = Math.max(paint.task, duration)))).observe({ type: "longtask", buffered: true });

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slow line: a relay on loopback that delays bytes in both directions. The server's bytes arrive at a limited rate,
-// which all connections share fairly. A new connection costs a round trip, as with TCP.
+// Simulates a slow line: a relay on loopback that delays bytes in both directions. The server's
+// bytes arrive at a limited rate, which all connections share fairly. A new connection takes a
+// round trip, as with TCP.
 import { once } from "node:events";
 import { connect, createServer } from "node:net";
 
 const kPacket = 1448;
-/** Bytes of a connection that may be queued here before the server has to pause. */
+/** Bytes of one connection that the relay queues before the server has to pause. */
 const kQueue = 65536;
 
 export class Line {
-  /** Starts a line to a server at `port` on this machine. `rate`: bytes per second; `delay`: ms in each direction. */
+  /**
+   * Starts a line to a server at `port` on this machine. `rate` is in bytes per second, `delay` in
+   * ms per direction.
+   */
   static async to(port, { rate, delay }) {
     const line = new Line(port, rate, delay);
     line.server.listen(0, "127.0.0.1");
@@ -18,7 +22,7 @@ export class Line {
     return line;
   }
 
-  #waiting = []; // { server, client, packets }, served in turn
+  #waiting = []; // connections as { server, client, packets }, served in turn
   #free = 0; // time in ms when the next packet may leave
   #timer;
 
@@ -50,7 +54,9 @@ export class Line {
   #pump() {
     clearTimeout(this.#timer);
     const now = performance.now();
-    this.#free = Math.max(this.#free, now - 5); // makes up for late timers, not for idle time
+    // Lets late packets catch up by at most 5 ms, which compensates for late timers but not for
+    // idle time.
+    this.#free = Math.max(this.#free, now - 5);
     while (this.#waiting.length > 0 && this.#free <= now) {
       const one = this.#waiting.shift(), packet = one.packets.shift();
       this.#free += (1000 * packet.length) / this.rate;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// no_freeze.mjs BIN_FOLDER MESH|FILE.pmesh: refines a model to its last triangle in Chromium, slowed
-// down to a quarter of its speed, and traces the page's main thread. Prints the CPU time for processing the
-// decoder's results, and fails if one task spends more than 12 ms on it. Also prints, without a limit,
-// the time of the browser's garbage collection and of drawing by three.js and the software renderer.
+// no_freeze.mjs BIN_FOLDER MESH|FILE.pmesh: refines a model to its last triangle in Chromium,
+// slowed down to a quarter of its speed, and traces the page's main thread. Prints the CPU time for
+// processing the decoder's results. Fails if one task spends more than 12 ms on that. Also prints,
+// without a limit, the time of the browser's garbage collection and of drawing by three.js and the
+// software renderer.
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -10,7 +11,7 @@ import { join } from "node:path";
 import { ViewerPage, launch } from "../../e2e/browser.mjs";
 import { StaticHost } from "../../e2e/static_host.mjs";
 
-// Factor by which Chromium is slowed down, and limit of a task in ms of CPU time.
+// Factor by which Chromium is slowed down, and the limit of a task in ms of CPU time.
 const kSlowDown = 4, kMost = 12;
 const kCategories = ["toplevel", "devtools.timeline", "blink.user_timing", "v8"];
 const kCollection = /^(MajorGC|MinorGC|V8\.GCIncrementalMarking.*)$/;
@@ -52,7 +53,7 @@ try {
 
 async function served() {
   const file = mesh.endsWith(".pmesh") ? mesh : join(folder, "model.pmesh");
-  if (file !== mesh) execFileSync(join(bin, "vitrine"), ["build", mesh, "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
+  if (file !== mesh) execFileSync(join(bin, "vitrine"), ["build", mesh, "--force", "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
   return host.add("model.pmesh", await readFile(file));
 }
 
@@ -69,8 +70,9 @@ async function traced(tracing, work) {
 }
 
 /**
- * Returns the page's tasks on the main thread that process results, with their CPU time in ms: `ours`, the garbage
- * `collection` within that, and the `whole` task.
+ * Returns the page's tasks on the main thread that process the decoder's results, with their CPU
+ * times in ms: `ours` for the processing, `collection` for the garbage collection within it, and
+ * `whole` for the whole task.
  */
 function judge(events) {
   const isMark = ({ name }) => name.startsWith("progressive-mesh:");

@@ -10,7 +10,8 @@
 namespace vitrine::test {
 namespace {
 
-// A tube whose picture is wrapped around it once. It is thin, so that its pictures take less time.
+// A tube with a picture wrapped once around it. The tube is thin, so that rendering takes less
+// time.
 struct TexturedTube {
   TriangleMesh mesh = tube(64, 20);
   Texturing texturing;
@@ -40,7 +41,8 @@ struct TexturedTube {
   }
 
  private:
-  // The last column of faces ends where the first one begins.
+  // Returns the texture coordinates of a face's corner. u is 1 instead of 0 where the last column
+  // of faces meets the first column.
   static TextureCoordinates at(std::uint32_t vertex, const Triangle& face) {
     const bool wraps =
         vertex % 64 == 0 && std::ranges::any_of(face, [](std::uint32_t v) { return v % 64 == 63; });
@@ -86,7 +88,7 @@ TEST(Appearance, TheFurtherATextureIsShiftedTheLowerAreTheFigures) {
     psnr = *found->psnr;
     ssim = found->ssim;
   }
-  // Models with the same bounds may be exchanged.
+  // If both models have the same bounds, swapping them does not change the result.
   const auto exchanged = reference.compared_with(TexturedTube(0.05));
   ASSERT_TRUE(exchanged.has_value());
   EXPECT_EQ(exchanged->psnr, psnr);

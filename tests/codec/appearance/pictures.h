@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures for tests of their differences.
+// Pictures for tests that compare pictures.
 #pragma once
 
 #include <random>
@@ -8,7 +8,7 @@
 
 namespace vitrine::test {
 
-// Returns an opaque picture whose three colours are `grey(x, y)`.
+// Returns an opaque picture. The red, green and blue of each pixel are `grey(x, y)`.
 template <class Grey>
 Picture grey_picture(std::uint32_t width, std::uint32_t height, Grey grey) {
   Picture picture{width, height, {}};

@@ -20,7 +20,7 @@ TEST(SquaredError, EqualPicturesHaveNoRatio) {
 TEST(SquaredError, NoiseOfFiveLevelsHasTheRatioComputedByHand) {
   const Picture flat = grey_picture(8, 8, [](auto, auto) { return 100; });
   const Picture noisy = grey_picture(8, 8, [](auto x, auto y) { return (x + y) % 2 ? 105 : 95; });
-  // 10 * log10(255^2 / 5^2)
+  // The error is 5 everywhere: 10 * log10(255^2 / 5^2).
   EXPECT_NEAR(psnr(squared_error(flat, noisy)).value(), 34.1514, 1e-4);
 }
 
@@ -29,14 +29,14 @@ TEST(SquaredError, OneColourOfThreeCountsAThird) {
   Picture reddish = flat;
   for (std::size_t at = 0; at < reddish.pixels.size(); at += 4)
     reddish.pixels[at] = 110;
-  // 10 * log10(255^2 / (10^2 / 3))
+  // One of three channels differs by 10: 10 * log10(255^2 / (10^2 / 3)).
   EXPECT_NEAR(psnr(squared_error(flat, reddish)).value(), 32.9020, 1e-4);
 }
 
 TEST(SquaredError, PixelsThatNeitherPictureCoversDoNotCount) {
   Picture a = grey_picture(4, 1, [](auto, auto) { return 100; }), b = a;
   b.pixels[0] = b.pixels[4] = b.pixels[8] = 0;
-  a.pixels[3] = b.pixels[3] = 0;  // no picture covers pixel 0, one covers pixel 1
+  a.pixels[3] = b.pixels[3] = 0;  // no picture covers pixel 0; only b covers pixel 1
   a.pixels[7] = 0;
   const SquaredError error = squared_error(a, b);
   EXPECT_EQ(error.bytes, 9u);

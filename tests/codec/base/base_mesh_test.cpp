@@ -5,13 +5,14 @@
 
 #include "codec/base/base_decoder.h"
 #include "codec/base/base_encoder.h"
+#include "support/library_base.h"
 #include "support/random_mesh.h"
 
 namespace vitrine {
 namespace {
 
-BaseMesh random_base(std::uint64_t seed) {
-  const LatticeMesh mesh = test::random_mesh(seed);
+BaseMesh random_base(std::uint64_t seed, std::uint32_t size = 120) {
+  const LatticeMesh mesh = test::random_mesh(seed, size);
   return {.positions = mesh.positions,
           .faces = mesh.faces,
           .attributes = lattice_attributes(mesh.attributes)};
@@ -45,14 +46,45 @@ TEST(BaseMesh, RandomMeshesComeBackVertexByVertex) {
   }
 }
 
-TEST(BaseMesh, DecodesToTheCountsOfTheHeaderOrNotAtAll) {
-  const BaseMesh base = random_base(7);
+void expect_as_the_library(const BaseMesh& base) {
   const auto encoded = encode_base(base);
-  ASSERT_TRUE(encoded);
+  ASSERT_TRUE(encoded) << encoded.error().message;
+  const auto peer = test::library_base(encoded->bytes, semantics_of(base.attributes));
+  ASSERT_TRUE(peer);
+  ASSERT_EQ(encoded->decoded.positions, peer->positions);
+  ASSERT_EQ(encoded->decoded.faces, peer->faces);
+  ASSERT_EQ(encoded->decoded.attributes.size(), peer->attributes.size());
+  for (std::size_t i = 0; i < peer->attributes.size(); ++i)
+    ASSERT_EQ(encoded->decoded.attributes[i].values, peer->attributes[i].values);
+}
+
+TEST(BaseMesh, IsReadAsTheDracoLibraryReadsIt) {
+  for (std::uint64_t seed = 0; seed < 1'000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_as_the_library(random_base(seed));
+  }
+}
+
+TEST(BaseMesh, LargeOnesAreReadAsTheDracoLibraryReadsThem) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_as_the_library(random_base(seed, 5'000));
+  }
+}
+
+Manifest manifest_of(const BaseMesh& base) {
   Manifest manifest;
   manifest.attributes = semantics_of(base.attributes);
   manifest.levels = {{.vertices = static_cast<std::uint32_t>(base.positions.size()),
                       .faces = static_cast<std::uint32_t>(base.faces.size())}};
+  return manifest;
+}
+
+TEST(BaseMesh, DecodesToTheCountsOfTheHeaderOrNotAtAll) {
+  const BaseMesh base = random_base(7);
+  const auto encoded = encode_base(base);
+  ASSERT_TRUE(encoded);
+  Manifest manifest = manifest_of(base);
   const auto decoded = decode_base(encoded->bytes, manifest);
   ASSERT_TRUE(decoded) << decoded.error().message;
   EXPECT_EQ(decoded->positions, encoded->decoded.positions);
@@ -71,11 +103,31 @@ TEST(BaseMesh, RefusesWhatIsNoEdgebreakerMesh) {
   auto bytes = encode_base(random_base(7))->bytes;
   EXPECT_FALSE(decode_base({}, manifest));
   EXPECT_FALSE(decode_base(std::span(bytes).first(5), manifest));
-  bytes[8] = 0;  // selects Draco's sequential method
+  bytes[8] = 0;  // Draco's sequential method instead of edgebreaker
   EXPECT_FALSE(decode_base(bytes, manifest));
   bytes[8] = 1;
-  bytes[7] = 0;  // marks the data as a point cloud
+  bytes[7] = 0;  // a point cloud instead of a mesh
   EXPECT_FALSE(decode_base(bytes, manifest));
+}
+
+TEST(BaseMesh, NoPrefixOfOneIsRead) {
+  for (const std::uint64_t seed : {3, 7, 8}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const BaseMesh base = random_base(seed);
+    const Manifest manifest = manifest_of(base);
+    const auto bytes = encode_base(base)->bytes;
+    for (std::size_t length = 0; length < bytes.size(); ++length)
+      ASSERT_FALSE(decode_base(std::span(bytes).first(length), manifest)) << length;
+  }
+}
+
+TEST(BaseMesh, AnotherVariantOfEdgebreakerIsNotSupported) {
+  const BaseMesh base = random_base(7);
+  auto bytes = encode_base(base)->bytes;
+  bytes[11] = 2;  // symbols coded by the valences of vertices
+  const auto decoded = decode_base(bytes, manifest_of(base));
+  ASSERT_FALSE(decoded);
+  EXPECT_EQ(decoded.error().code, ErrorCode::kUnsupported);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the errors that a complete build states for its levels.
+// Checks the errors that a finished build states for its levels.
 #include "codec/build/level_errors.h"
 
 #include <gtest/gtest.h>
@@ -38,12 +38,22 @@ TEST(LevelErrors, NoLevelIsFartherOffThanItStatesNorMuchNearer) {
   }
 }
 
+std::vector<std::uint8_t> built_on(unsigned threads, Placement placement) {
+  const BuildOptions options{
+      .bits = 16, .placement = placement, .region_vertices = 2'000, .threads = threads};
+  const auto built = build_model(file(), options, {});
+  if (!built) return {};
+  EXPECT_GT(built->report.manifest.tree.leaves(), 4u);
+  return built->file;
+}
+
 TEST(LevelErrors, AreTheSameHoweverManyThreadsMeasure) {
-  const auto one = build_model(file(), {.bits = 16, .region_vertices = 2'000, .threads = 1}, {});
-  const auto four = build_model(file(), {.bits = 16, .region_vertices = 2'000, .threads = 4}, {});
-  ASSERT_TRUE(one && four);
-  EXPECT_GT(one->report.manifest.tree.leaves(), 4u);
-  EXPECT_EQ(one->file, four->file);
+  for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
+    const auto one = built_on(1, placement);
+    ASSERT_FALSE(one.empty());
+    for (const unsigned threads : {2u, 3u, 4u})
+      EXPECT_EQ(built_on(threads, placement), one) << threads << " threads";
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the errors that a file states: at whole levels, between regions of different levels, and
-// in a camera's view. Compares dense points of the displayed surface and of the original.
+// Checks the errors that a file states: for whole levels, between regions of different levels, and
+// for a camera's view. Compares many points of the displayed surface with the original, and many
+// points of the original with the displayed surface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,8 +29,8 @@ struct How {
   Placement placement;
 };
 
-// Returns a model of the bust with small components around it. Levels insert each of these as a
-// whole.
+// Returns a mesh file of the bust with small components around it. Levels insert each component as
+// a whole.
 std::vector<std::uint8_t> bust_with_specks() {
   TriangleMesh mesh = shipped_model("demosthenes.obj");
   const std::size_t vertices = mesh.positions.size();
@@ -63,7 +64,7 @@ class Bust {
 
   const Manifest& manifest() const { return built_.report.manifest; }
   const TriangleMesh& original() const { return original_; }
-  const TriangleBvh& bvh() const { return bvh_; }  // bounding volume hierarchy of the original
+  const TriangleBvh& bvh() const { return bvh_; }  // hierarchy of the original's triangles
   std::uint32_t leaf(VertexId original) const { return leaf_[original]; }
 
   Refiner start() const { return std::move(*open_model(built_.file)); }
@@ -80,8 +81,8 @@ class Bust {
     find_leaves();
   }
 
-  // Finds the leaf of each original vertex. At full resolution, the model's vertices are the
-  // original ones, rounded to the lattice.
+  // Finds the leaf of each original vertex. The model's vertices at full resolution are the
+  // original vertices, rounded to the lattice.
   void find_leaves() {
     Refiner whole = start();
     refine_to(whole, WantLevel{static_cast<std::uint32_t>(manifest().levels.size() - 1)});
@@ -108,7 +109,8 @@ struct CornerRegion {
 };
 using Places = std::array<CornerRegion, 3>;
 
-// Returns the smallest error stated by those of the three regions that have the coarsest level.
+// Considers only those of the three regions that have the coarsest level. Returns the smallest
+// error that they state.
 double least_stated(const Places& places) {
   const std::uint32_t coarsest = std::min({places[0].level, places[1].level, places[2].level});
   double least = std::numeric_limits<double>::infinity();
@@ -126,7 +128,7 @@ TrianglePoints corners_of(const TriangleMesh& mesh, const Triangle& f) {
   return {mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]};
 }
 
-// Calls f for a grid of points on a triangle, including its corners and edges.
+// Calls f for a grid of points on a triangle. The grid includes the corners and edges.
 template <typename F>
 void for_points(const TrianglePoints& t, double spacing, const F& f) {
   const double longest = std::max({length(t.b - t.a), length(t.c - t.b), length(t.a - t.c)});
@@ -137,7 +139,7 @@ void for_points(const TrianglePoints& t, double spacing, const F& f) {
   }
 }
 
-// The surface that a refiner displays.
+// The displayed surface of a refiner.
 class DisplayedSurface {
  public:
   DisplayedSurface(const Bust& bust, const Refiner& refiner)
@@ -162,7 +164,8 @@ class DisplayedSurface {
     }
   }
 
-  // Calls f(point, regions of its face's corners) for a grid of points on the displayed surface.
+  // Calls f(p, places) for a grid of points p on the displayed surface. `places` holds the regions
+  // of the three corners of p's face.
   template <typename F>
   void for_displayed(const F& f) const {
     for (const Triangle& face : mesh_.faces) {
@@ -170,7 +173,7 @@ class DisplayedSurface {
       for_points(corners_of(mesh_, face), spacing_, [&](const Vec3& p) { f(p, places); });
     }
   }
-  // Calls f in the same way for a grid of points on the original surface.
+  // Like for_displayed(), for a grid of points on the original surface.
   template <typename F>
   void for_original(const F& f) const {
     for (const Triangle& face : bust_.original().faces) {
@@ -183,8 +186,9 @@ class DisplayedSurface {
 
   double to_original(const Vec3& p) const { return std::sqrt(bust_.bvh().closest(p).squared); }
   ClosestTriangle closest(const Vec3& p) const { return bvh_.closest(p); }
-  // Returns the largest error of a region whose box, grown by that error, contains p. A camera that
-  // sees p also sees that box, and requests the region if the error is too large for the view.
+  // Returns the largest stated error among the regions whose box, enlarged by this error, contains
+  // p. A camera that sees p also sees these boxes, so it requests a region whose error is too
+  // large.
   double most_around(const Vec3& p) const {
     double most = 0;
     for (const RegionErrorBox& region : regions_) {
@@ -215,12 +219,12 @@ class DisplayedSurface {
   const Refiner& refiner_;
   TriangleMesh mesh_;
   TriangleBvh bvh_;
-  std::vector<std::uint32_t> level_;     // level of each leaf
-  std::vector<RegionErrorBox> regions_;  // region of each leaf
+  std::vector<std::uint32_t> level_;     // per leaf: the level of its region
+  std::vector<RegionErrorBox> regions_;  // per leaf: its region
   double spacing_;
 };
 
-// Collects distances as shares of their allowed maximum, and keeps the largest share.
+// Collects distances relative to their allowed maximum. Keeps the largest of these ratios.
 struct Largest {
   double share = 0;
   std::size_t mixed = 0;
@@ -290,13 +294,13 @@ TEST_P(MixedLevels, ShowNothingFartherOffThanTheRegionsAtHandState) {
   EXPECT_GT(back.mixed, 1'000u);
 }
 
-// A camera that looks at a point of the model.
+// A camera with a position and a direction.
 struct PinholeCamera {
   Vec3 eye, right, up, back;
   View view;
 
-  // Returns the largest number of pixels that an offset of this length can cover at point p.
-  // Returns 0 if p is out of sight.
+  // Returns the largest number of pixels that an offset of length `offset` can cover at point p.
+  // Returns 0 if the camera does not see p.
   double pixels(const Vec3& p, double offset) const {
     const Vec3 d = p - eye;
     const double depth = -dot(d, back);
@@ -334,9 +338,9 @@ TEST_P(MixedLevels, ShowACameraNoErrorAboveWhatItAllows) {
   std::size_t mixed = 0;
   for (int i = 0; i < 6; ++i) {
     const double degrees = i == 0 ? 20 : 130;
-    // The largest error allowed, in model units, at the distance kAway from the eye.
+    // The largest allowed error, in model units, at the distance kAway from the eye.
     const double allowed = i % 2 == 0 ? 0.012 : 0.0035;
-    // The camera is turned away from the target, which therefore lies near the side of a wide view.
+    // The camera does not look straight at the target. In a wide view, the target is near the side.
     const Vec3 target = anywhere(), from = anywhere(), to = anywhere(), aside = anywhere();
     const Vec3 eye = target + unit(to - from) * kAway;
     PinholeCamera camera = look_at(target + (aside - target) * 0.8, eye, degrees, kHeight);
@@ -347,7 +351,7 @@ TEST_P(MixedLevels, ShowACameraNoErrorAboveWhatItAllows) {
     const DisplayedSurface shown(bust, refiner);
     Largest there, back;
     const auto look = [&](const Vec3& p, double distance, const Places& places, Largest& largest) {
-      // Close to the eye, even the error of full resolution exceeds the allowed number of pixels.
+      // Near the eye, the error of full resolution alone may exceed the allowed number of pixels.
       const double least = camera.pixels(p, m.levels.back().max_error);
       largest.add(camera.pixels(p, distance), std::max(camera.view.pixel_error, least),
                   is_mixed(places));

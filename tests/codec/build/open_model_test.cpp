@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens files whose base mesh is damaged.
+// Opens files that have a damaged base mesh.
 #include "codec/build/open_model.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ class HostileBaseMesh : public ::testing::Test {
   }
 
   std::vector<std::uint8_t> file_;
-  std::size_t base_ = 0, end_ = 0;  // offsets at which the base mesh begins and ends
+  std::size_t base_ = 0, end_ = 0;  // begin and end of the base mesh, in bytes
 };
 
 TEST_F(HostileBaseMesh, NamesABaseMeshThatIsCutAtAnyByte) {

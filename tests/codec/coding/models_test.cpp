@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the entropy models alone. The decoder must return the encoded values, whether the
-// expectations are plausible or absurd.
+// Tests the entropy models alone. The decoder must return the encoded values, even if the model's
+// expectations are absurd.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "codec/coding/cut_model.h"
@@ -52,10 +53,12 @@ RingGeometry random_ring(Dice& dice) {
   for (std::uint32_t k = 0; k < ring.size; ++k) {
     ring.valence[k] = static_cast<std::int8_t>(dice.between(3, 100));
     ring.is_virtual[k] = dice.one_in(8);
+    ring.place(k, {});
     if (ring.is_virtual[k]) continue;
     const double bound = dice.one_in(3) ? 0 : 500'000;
-    ring.at[k] = {random_double(dice, bound), random_double(dice, bound), 0};
-    sum += length(ring.at[k]);
+    ring.place(k,
+               {std::round(random_double(dice, bound)), std::round(random_double(dice, bound)), 0});
+    sum += length(ring.at(k));
   }
   ring.scale = std::max(sum / ring.size, 0.5);
   return ring;
@@ -89,8 +92,7 @@ SplitSurroundings random_surroundings(Dice& dice) {
   const double bound = dice.one_in(2) ? 400'000 : 10;
   const Vec3 one = {random_double(dice, bound), random_double(dice, bound),
                     random_double(dice, bound)};
-  // Makes many features equal. Features that depend on each other leave the regression without a
-  // unique solution.
+  // Makes many features equal. The regression then has no unique solution.
   for (Vec3& f : s.features)
     f = dice.one_in(3) ? Vec3{random_double(dice, bound), 0, random_double(dice, bound)} : one;
   s.normal = dice.one_in(3) ? Vec3{} : Vec3{0, 0.6, 0.8};
@@ -125,8 +127,8 @@ TEST(DisplacementModel, AnyDisplacementComesBackInAnySurroundings) {
   }
 }
 
-// Expects that the first update of each initial state does not overflow its 32-bit product. A state
-// that no sequence of bits produces could overflow it.
+// Expects that the first update of each initial state does not overflow its 32-bit product. States
+// reached by coding bits never do, but a wrong initial state could.
 template <class Model>
 void expect_safe_starts(const Model& model) {
   for (const AdaptiveBit& start : model.bits()) {

@@ -50,5 +50,19 @@ TEST(ByteCursor, AnOverlongVariableIntegerIsAnError) {
   EXPECT_FALSE(beyond.is_ok());
 }
 
+TEST(ByteCursor, AVariableIntegerOf32BitsTakesAtMostFiveBytes) {
+  const std::vector<std::uint8_t> most = {0xFF, 0xFF, 0xFF, 0xFF, 0x0F};
+  ByteReader in(most);
+  EXPECT_EQ(in.varint32(), std::numeric_limits<std::uint32_t>::max());
+  EXPECT_TRUE(in.is_ok());
+  using Bytes = std::vector<std::uint8_t>;
+  for (const Bytes& more :
+       {Bytes{0xFF, 0xFF, 0xFF, 0xFF, 0x1F}, {0x81, 0x80, 0x80, 0x80, 0x80, 0}}) {
+    ByteReader beyond(more);
+    EXPECT_EQ(beyond.varint32(), 0u);
+    EXPECT_FALSE(beyond.is_ok());
+  }
+}
+
 }  // namespace
 }  // namespace vitrine

@@ -12,7 +12,7 @@ using test::Dice;
 
 struct Decision {
   std::uint32_t value;
-  int model;  // index of an adaptive bit; if negative, minus the number of raw bits
+  int model;  // index of an adaptive bit, or minus the number of raw bits
 };
 
 std::vector<std::uint8_t> encode(const std::vector<Decision>& decisions) {
@@ -58,8 +58,8 @@ TEST(RangeCoder, RandomDecisionsComeBack) {
   }
 }
 
-// Raw zero bits push `low` up to just below a carry. The encoder then holds a long run of pending
-// 0xFF bytes. The last decision either carries through the run or releases it.
+// Raw zero bits leave `low` just below a carry. The encoder then holds a long run of pending 0xFF
+// bytes. The last decision decides whether a carry passes through this run.
 TEST(RangeCoder, LongRunsOfPendingBytesCarryOrNot) {
   for (int run = 0; run < 300; ++run) {
     for (const std::uint32_t last : {0u, 1u}) {

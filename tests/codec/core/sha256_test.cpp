@@ -25,6 +25,21 @@ TEST(Sha256, KnowsTheStandardVectors) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, PiecesOfAnySizeHaveTheHashOfTheWhole) {
+  std::vector<std::uint8_t> bytes(300);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<std::uint8_t>(i * i);
+  for (std::size_t first = 0; first <= bytes.size(); ++first) {
+    for (const std::size_t piece : {1u, 55u, 63u, 64u, 65u, 130u}) {
+      Sha256Hasher hasher;
+      hasher.add(std::span(bytes).first(first));
+      for (std::size_t at = first; at < bytes.size(); at += piece)
+        hasher.add(std::span(bytes).subspan(at, std::min(piece, bytes.size() - at)));
+      ASSERT_EQ(hasher.finish(), sha256(bytes)) << first << " bytes, then pieces of " << piece;
+    }
+  }
+}
+
 TEST(Sha256, HexIsReadBackAndNothingElse) {
   const Sha256 digest = sha256({});
   Sha256 read{};

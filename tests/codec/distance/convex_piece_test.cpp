@@ -16,7 +16,7 @@ Vec3 near_by(Random& random, double offset) {
   return {offset + unit(random), offset + unit(random), offset + unit(random)};
 }
 
-// Returns a random point of the edge that starts at the given corner.
+// Returns a random point on the edge that starts at corner number `corner`.
 Vec3 on_edge(const ConvexPiece& piece, std::size_t corner, Random& random) {
   const auto corners = piece.corners();
   const double share = std::uniform_real_distribution<double>(0, 1)(random);
@@ -24,8 +24,8 @@ Vec3 on_edge(const ConvexPiece& piece, std::size_t corner, Random& random) {
   return a + (b - a) * share;
 }
 
-// Cuts along lines between two points of a piece's edges. The pieces lie far from the origin, where
-// rounding puts corners on alternating sides of a cut.
+// Cuts along lines through two points on a piece's edges. The pieces lie far from the origin, where
+// rounding puts corners on alternating sides of the cut.
 TEST(ConvexPiece, HoldsTheCornersThatRoundingAddsToACut) {
   Random random(1);
   std::size_t most = 0;
@@ -44,7 +44,7 @@ TEST(ConvexPiece, HoldsTheCornersThatRoundingAddsToACut) {
       most = std::max(most, piece.corners().size());
     }
   }
-  EXPECT_GT(most, 13u);  // without rounding, a cut turns at most 12 corners into 13
+  EXPECT_GT(most, 13u);  // exact arithmetic gives at most 13 corners
 }
 
 TEST(ConvexPiece, HalvesOfOneThatIsTooSmallToHalveAreItselfAndNothing) {

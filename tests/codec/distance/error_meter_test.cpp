@@ -27,7 +27,7 @@ double diagonal(const TriangleMesh& mesh) {
   return length(high - low);
 }
 
-// Moves each vertex far, but within the surface of the mesh, so that the surface hardly moves.
+// Moves each vertex far along the surface, so that the surface itself hardly moves.
 TEST(ErrorMeter, BoundIsTrueAndTightForVerticesThatSlide) {
   const auto slide = [](const Vec3& p) { return p + Vec3{0.4, 0, 0}; };
   TriangleMesh slid = sheet(60, 50);
@@ -91,8 +91,8 @@ TEST(ErrorMeter, CopesWithFacesWithoutArea) {
   EXPECT_GE(ErrorMeter(sheet(10, 10)).measure(point).max_error, far * (1 - 1e-9));
 }
 
-// Measures sheets that coincide. Nearly all of their faces have no area, and walks along neighbours
-// end among these faces.
+// Measures sheets that coincide. Nearly all their faces have no area, and walks from neighbour to
+// neighbour end at such faces.
 TEST(ErrorMeter, FoldedOntoItselfIsMeasuredInBoundedWork) {
   TriangleMesh folded = sheet(20, 20);
   for (Vec3& p : folded.positions)
@@ -103,8 +103,8 @@ TEST(ErrorMeter, FoldedOntoItselfIsMeasuredInBoundedWork) {
   EXPECT_LT(ErrorMeter(folded).measure(coarse).max_error, 1e-5);
 }
 
-// Measures faces that cross each other at random. No walk along neighbours leads to the closest
-// face.
+// Measures faces that cross each other at random. No walk from neighbour to neighbour leads to the
+// closest face.
 TEST(ErrorMeter, ATangleIsMeasuredInBoundedWork) {
   std::mt19937 random(1);
   const auto unit = [&random] { return static_cast<double>(random()) * 0x1p-32; };
@@ -120,6 +120,23 @@ TEST(ErrorMeter, ATangleIsMeasuredInBoundedWork) {
   const LevelError error = ErrorMeter(tangle).measure(moved);
   EXPECT_GE(error.max_error, dense_maximum(moved, TriangleBvh(tangle)) * (1 - 1e-9));
   EXPECT_LT(error.max_error, 0.05);
+}
+
+// Measures long triangles around one vertex. The bounding boxes of a quarter of them overlap at any
+// point, so that each search takes long.
+TEST(ErrorMeter, AFanOfManyFacesAtOneVertexIsMeasuredInBoundedWork) {
+  const auto fan = [](std::uint32_t n, double height) {
+    TriangleMesh mesh{{{0, 0, height}}, {}, {}};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double angle = 2 * M_PI * i / n;
+      mesh.positions.push_back({std::cos(angle), std::sin(angle), 0.01 * std::sin(5 * angle)});
+      mesh.faces.push_back({0, i + 1, (i + 1) % n + 1});
+    }
+    return mesh;
+  };
+  const double error = ErrorMeter(fan(20'000, 0.3)).measure(fan(9'000, 0.31)).max_error;
+  EXPECT_GE(error, 0.0095);
+  EXPECT_LT(error, 0.02);
 }
 
 }  // namespace

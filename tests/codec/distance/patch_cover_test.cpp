@@ -20,8 +20,8 @@ namespace {
 
 const TrianglePoints kTriangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-// Returns one triangle over x >= -reach, y >= -reach, x + y <= 2 * reach, in the plane z = 0.1 +
-// slope * x.
+// Returns a triangle in the plane z = 0.1 + slope * x, bounded by x >= -reach, y >= -reach and x +
+// y <= 2 * reach.
 TriangleMesh slope(double reach, double slope) {
   const auto at = [&](double x, double y) { return Vec3{x, y, 0.1 + slope * x}; };
   return {.positions = {at(-reach, -reach), at(3 * reach, -reach), at(-reach, 3 * reach)},
@@ -35,8 +35,8 @@ PatchCover::CoverResult cover(const TriangleMesh& mesh, double limit) {
   return PatchCover(surface).cover(kTriangle, 0, start, limit, 1);
 }
 
-// Returns one strip between each two neighbouring points (x, z) of a profile. The strips extend
-// from y = -50 to y = 50.
+// Returns a strip for each pair of successive points (x, z) of a profile. The strips run from y =
+// -50 to y = 50.
 TriangleMesh drawn_along_y(const std::vector<std::array<double, 2>>& profile) {
   TriangleMesh mesh;
   for (const auto& [x, z] : profile) {
@@ -51,7 +51,7 @@ TriangleMesh drawn_along_y(const std::vector<std::array<double, 2>>& profile) {
 }
 
 TEST(PatchCover, CountsTheHeightOverTheTriangleOnly) {
-  // outside the triangle, the plane reaches a height of 75
+  // Outside the triangle to cover, the sloped plane is up to 75 high. This height must not count.
   const PatchCover::CoverResult result = cover(slope(50, 0.5), 0.7);
   EXPECT_TRUE(result.is_covered);
   EXPECT_GE(result.height, 0.6);
@@ -112,7 +112,7 @@ TEST(PatchCover, TellsWhichTriangleWasNear) {
   EXPECT_EQ(std::move(failed).overlaps().near(0), std::nullopt);
 }
 
-// Returns a wavy sheet around the origin, partly folded over, with holes.
+// Returns a wavy sheet around the origin. It has holes and partly folds over.
 TriangleMesh crumpled(Dice& dice) {
   TriangleMesh mesh = sheet(12, 12);
   const auto unit = [&dice] { return dice.below(1'000'001) * 2e-6 - 1; };
@@ -123,8 +123,8 @@ TriangleMesh crumpled(Dice& dice) {
   return mesh;
 }
 
-// Covered points must lie within the height. Marked points must lie within it even if the triangle
-// is not covered.
+// Covered points must be within `height`. So must points of marked triangles, even if the cover
+// failed.
 TEST(PatchCover, BoundsWhatItCoversAndMarks) {
   std::size_t covered = 0, marked_without_cover = 0;
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {
@@ -135,7 +135,7 @@ TEST(PatchCover, BoundsWhatItCoversAndMarks) {
     const double thin = dice.one_in(4) ? 1e-3 : 1;
     const Vec3 turn{unit(), unit(), unit()};
     const double scale = std::array{1e-20, 1.0, 1e20}[dice.below(3)];
-    // Reflects and scales a point. This multiplies all distances by `scale`.
+    // Reflects a point and scales it, which multiplies all distances by `scale`.
     const auto place = [&](const Vec3& p) {
       return (p - turn * (2 * dot(turn, p) / dot(turn, turn))) * scale;
     };

@@ -13,7 +13,7 @@
 namespace vitrine::test {
 namespace {
 
-// Returns random triangles of all kinds, including slivers, segments and points.
+// Returns random triangles, including slivers, segments and points.
 TriangleMesh random_soup(unsigned seed, std::uint32_t count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);

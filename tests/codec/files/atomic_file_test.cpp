@@ -16,14 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::uint8_t>;
 
-// Limits the size of files to `bytes`, so that a write stops part of the way, as on a full disk.
+// Limits the size of files to `bytes`. A write then stops halfway, as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
     ::getrlimit(RLIMIT_FSIZE, &before_);
     const rlimit small{bytes, before_.rlim_max};
     ::setrlimit(RLIMIT_FSIZE, &small);
-    // SIGXFSZ is ignored, so that the write fails with EFBIG.
+    // Ignores SIGXFSZ, so that the write fails with EFBIG instead.
     handler_ = ::signal(SIGXFSZ, SIG_IGN);
   }
   ~FileSizeLimit() {

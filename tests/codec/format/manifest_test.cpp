@@ -33,7 +33,7 @@ void add_levels(Dice& dice, Manifest& m) {
   if (m.levels.size() > 1) m.levels[0].shift = dice.below(kMaxShift + 1);
 }
 
-// Adds a node and all nodes below it. The node may fork, at `level` or a finer level.
+// Adds a node and all nodes below it. The node may fork at `level` or at a finer level.
 void add_node(Dice& dice, std::uint32_t level, Manifest& m) {
   const auto levels = static_cast<std::uint32_t>(m.levels.size());
   RegionNode node;
@@ -183,8 +183,8 @@ TEST(Manifest, EveryByteOfAHeaderIsProtected) {
   EXPECT_TRUE(parse_header(bytes));
 }
 
-// Applies a change to a valid manifest and expects that the reader refuses it. Returns the error
-// message.
+// Changes a valid manifest by `change` and expects that the reader refuses the result. Returns the
+// error message.
 template <class Change>
 std::string refusal(const Change& change) {
   Manifest m;
@@ -258,7 +258,7 @@ TEST(Manifest, RefusesATreeWhoseChildForksBeforeItsParent) {
   EXPECT_NE(parsed.error().message.find("part of"), std::string::npos) << parsed.error().message;
 }
 
-// A reader's memory must be bounded by the bytes that it reads, so an empty chunk must not claim a
+// A reader's memory must be bounded by the bytes read. An empty chunk must therefore not state a
 // million splits.
 TEST(Manifest, RefusesMoreVerticesThanAChunkOfItsLengthBrings) {
   const auto with = [](std::uint32_t splits, std::uint64_t length, std::uint32_t inserted = 0) {
@@ -287,10 +287,10 @@ TEST(Manifest, NamesTheVersionAndTheFeaturesItDoesNotKnow) {
   EXPECT_EQ(parse_header(bytes).error().code, ErrorCode::kUnsupported);
   EXPECT_NE(parse_header(bytes).error().message.find("version 2"), std::string::npos);
   bytes[8] = 1;
-  bytes[10] = 7;  // readers accept newer minor versions
+  bytes[10] = 7;  // readers accept any minor version
   EXPECT_TRUE(parse_header(test::sealed(bytes)));
-  // Flag 0x08 is reserved for the attribute table; 0x40 has no meaning.
-  for (const int bit : {0x08, 0x40}) {
+  // The flag 0x10 is reserved for an attribute table. The flag 0x40 has no meaning yet.
+  for (const int bit : {0x10, 0x40}) {
     auto with_bit = bytes;
     with_bit[16] = static_cast<std::uint8_t>(with_bit[16] | bit);
     with_bit = test::sealed(with_bit);

@@ -59,10 +59,10 @@ TEST(Placement, LevelsAlternateTheirParityFromTheFinest) {
   EXPECT_EQ(level_parity(1, 9), 0);
 }
 
-// The formula is r = 2 (sum opposite / 4m - sum others / 4n), rounded half up.
+// Tests r = 2 (sum(opposite) / 4m - sum(others) / 4n), rounded half up.
 TEST(Placement, PyramidTermRoundsHalfUpAndAddsTheParity) {
   const std::vector<Vec3i> opposite = {{3, -3, 10}, {4, -4, 10}}, others = {{0, 0, 4}};
-  // before rounding: 1.75, -1.75, 3
+  // The values before rounding are 1.75, -1.75 and 3.
   EXPECT_EQ(pyramid_term(opposite, others, 0), (Vec3i{2, -2, 3}));
   EXPECT_EQ(pyramid_term(opposite, others, 1), (Vec3i{3, -1, 4}));
   const std::vector<Vec3i> one = {{1, -1, 3}};

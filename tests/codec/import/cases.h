@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of files as real programs write them, and what each must give.
+// The type of a test case: a file as a real program writes it, with the expected result of reading
+// it. The tests *_cases_test.cpp have tables of such cases.
 #pragma once
 
 #include <map>
@@ -12,8 +13,8 @@ struct Case {
   std::string situation;
   std::string file;
   std::size_t faces = 4;
-  std::vector<Colour> colours = {};  // of the vertices, in order
-  std::string said = "";             // part of a line of `repairs`; empty if there is no line
+  std::vector<Colour> colours = {};  // expected vertex colours, in order
+  std::string said = "";             // expected part of a `repairs` line; empty for no line
   std::map<std::string, std::string> beside = {};
 };
 

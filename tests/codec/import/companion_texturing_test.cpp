@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials, pictures and texture coordinates that a mesh carries from OBJ and PLY.
+// Tests which materials, pictures and texture coordinates a mesh keeps from OBJ and PLY files.
 #include "codec/import/reading.h"
 #include "codec/picture/pictures.h"
 
@@ -112,7 +112,7 @@ TEST(ObjTexturing, ADamagedPictureIsNotCarried) {
   EXPECT_TRUE(result.texturing.empty());
 }
 
-// Returns a PLY of two faces on four vertices.
+// Returns a PLY with two faces and four vertices.
 std::string textured_ply(const std::string& textures, const std::string& vertex,
                          const std::string& face, const std::string& body) {
   return "ply\nformat ascii 1.0\n" + textures +
@@ -166,6 +166,33 @@ TEST(PlyTexturing, AListOfTheWrongLengthGivesZeros) {
           .texturing;
   EXPECT_THAT(result.coordinates[0],
               ElementsAre(FacePlaces{{{0, 1}, {1, 1}, {1, 0}}}, FacePlaces{}));
+}
+
+TEST(PlyTexturing, NoNoteSaysThatACarriedPictureIsNotCarried) {
+  const std::string colours = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const auto coloured = read_carried(
+      textured_ply("comment TextureFile a.png\n", colours, "property list uchar float texcoord\n",
+                   "0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n"
+                   "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0 0 1 1 0 1\n"),
+      {{"a.png", red_and_blue()}});
+  EXPECT_THAT(coloured.texturing.pictures, SizeIs(1));
+  EXPECT_THAT(coloured.repairs, ElementsAre());
+  const auto several = read_carried(
+      textured_ply(kTwoTextures, "", "property list uchar float texcoord\nproperty int texnumber\n",
+                   kPlyVertices + "3 0 1 2 6 0 0 1 0 1 1 0\n3 0 2 3 6 0 0 1 1 0 1 1\n"),
+      {{"a.png", red_and_blue()}, {"b.png", png_of({1, 2, 3}, 1)}});
+  EXPECT_THAT(several.texturing.pictures, SizeIs(2));
+  EXPECT_THAT(several.repairs, ElementsAre());
+}
+
+TEST(PlyTexturing, PicturesWithoutCoordinatesAreNamed) {
+  const auto result =
+      read_carried(textured_ply(kTwoTextures, "", "", kPlyVertices + "3 0 1 2\n3 0 2 3\n"),
+                   {{"a.png", red_and_blue()}, {"b.png", red_and_blue()}});
+  EXPECT_TRUE(result.texturing.empty());
+  EXPECT_THAT(result.repairs,
+              ElementsAre("2 texture maps not carried: the file has no texture coordinates; export "
+                          "them, too"));
 }
 
 TEST(PlyTexturing, SeveralTexturesNeedTexnumber) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds a glTF file part by part.
+// Builds a glTF file piece by piece.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace vitrine::testing {
 
-// Puts a document and its binary chunk into a GLB container.
+// Returns a GLB file with this JSON document and this binary chunk.
 inline std::string glb(std::string json, std::string binary) {
   while (json.size() % 4 != 0)
     json += ' ';
@@ -29,13 +29,14 @@ class GlbBuilder {
 
   Json document = {{"asset", {{"version", "2.0"}}}};
 
-  // Adds a buffer view of `bytes`; `more` holds its other members. Returns the index of the view.
+  // Adds a buffer view of `bytes` and returns its index. `more` holds further members of the view.
   std::size_t view(const std::string& bytes, Json more = Json::object()) {
     more.update(place(bytes));
     return append("bufferViews", std::move(more));
   }
 
-  // Appends `bytes` to the binary chunk. Returns their position in the chunk as members of a view.
+  // Appends `bytes` to the binary chunk. Returns the buffer, offset and length as members of a
+  // buffer view.
   Json place(const std::string& bytes) {
     binary_.resize((binary_.size() + 3) / 4 * 4);
     const std::size_t offset = binary_.size();
@@ -53,7 +54,7 @@ class GlbBuilder {
     return accessor(type, 5126, count, {{"bufferView", view(bytes_of<float>(values))}});
   }
 
-  // Appends `value` to the document's array `key`. Returns its index.
+  // Appends `value` to the document's array `key` and returns its index there.
   std::size_t append(const char* key, Json value) {
     document[key].push_back(std::move(value));
     return document[key].size() - 1;
@@ -63,7 +64,7 @@ class GlbBuilder {
 
   std::string file() const { return glb(document.dump(), binary_); }
 
-  // Returns a glTF file whose buffer has the URI `uri`. The buffer's contents are binary().
+  // Returns a glTF file as text. Its buffer has the URI `uri` and the contents of binary().
   std::string text_file(const std::string& uri) const {
     Json text = document;
     text["buffers"] = {{{"uri", uri}, {"byteLength", binary_.size()}}};

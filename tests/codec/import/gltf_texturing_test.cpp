@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials, pictures and texture coordinates that a mesh carries from glTF.
+// Tests which materials, pictures and texture coordinates a mesh keeps from glTF files.
 #include "codec/import/textured_gltf.h"
 
 namespace vitrine {
@@ -180,7 +180,7 @@ TEST(GltfTexturing, CoordinatesThatAreNotFiniteBecomeZero) {
   EXPECT_THAT(result.repairs, Contains(HasSubstr("1 texture coordinate without finite values")));
 }
 
-// Many views of the same bytes would be copied again and again.
+// Many images can refer to the same bytes. Without a limit, each would be a copy of these bytes.
 TEST(GltfTexturing, PicturesTogetherAreNotLargerThanTheFile) {
   std::string picture = red_and_blue();
   picture += std::string(2000, 'x');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads files that are cut off at every byte, or have any one byte changed. The result must be an
-// error or a valid mesh, and the memory must stay within a multiple of the file's size.
+// Reads files that are truncated after each byte, or have any one byte changed. The result must be
+// an error or a valid mesh. The memory used must stay within a multiple of the file's size.
 #include "codec/export/write_mesh.h"
 #include "codec/import/textured_gltf.h"
 #include "codec/mesh/connectivity.h"
@@ -18,22 +18,22 @@ using vitrine::testing::GlbBuilder;
 using vitrine::testing::png_of;
 using vitrine::testing::textured;
 
-// Heap bytes allowed for the messages of errors and repairs, in addition to a multiple of the
-// file's size.
+// Heap bytes allowed for error messages and repair messages, besides the multiple of the file's
+// size.
 constexpr std::size_t kHeapAlways = 512;
 
 struct IntactFile {
   std::string name, bytes;
-  std::size_t heap_per_byte;
-  Companions beside = {};  // counted with the size of the file
+  std::size_t heap_per_byte;  // allowed heap bytes per byte of the file and its companions
+  Companions beside = {};
 };
 
 std::string written(MeshFormat format) {
   return as_text(*write_mesh(coloured_tetrahedron(), format));
 }
 
-// Returns a PLY with one byte for each number. Its faces join the vertices without order, so repair
-// must split many vertices.
+// Returns a PLY with a single byte per number. Its faces join vertices at random, so repair must
+// split many vertices.
 std::string densest_ply() {
   std::string ply =
       "ply\nformat binary_little_endian 1.0\nelement vertex 50\nproperty uchar x\n"
@@ -47,6 +47,32 @@ std::string densest_ply() {
   return ply;
 }
 
+// Returns a GLB with two triangles. The first has a sparse morph target and two instances; the
+// second has a skin.
+std::string posed_glb() {
+  GlbBuilder builder;
+  const auto points = builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
+  const auto places = builder.floats("VEC3", {0, 0, 0, 0, 0, 5}, 2);
+  const auto number = builder.view(std::string(1, '\1'));
+  const GlbBuilder::Json sparse{{"count", 1},
+                                {"indices", {{"bufferView", number}, {"componentType", 5121}}},
+                                {"values", {{"bufferView", 0}}}};
+  const auto target = builder.accessor("VEC3", 5126, 3, {{"sparse", sparse}});
+  const auto joints = builder.accessor("VEC4", 5121, 3, {{"bufferView", 1}});
+  const auto weights = builder.floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 3);
+  builder.mesh({{"attributes", {{"POSITION", points}}}, {"targets", {{{"POSITION", target}}}}});
+  builder.mesh(
+      {{"attributes", {{"POSITION", points}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}});
+  builder.document["nodes"] = {
+      {{"mesh", 0},
+       {"weights", {1}},
+       {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}},
+      {{"mesh", 1}, {"skin", 0}}};
+  builder.document["skins"] = {{{"joints", {0}}}};
+  builder.document["scenes"] = {{{"nodes", {0, 1}}}};
+  return builder.file();
+}
+
 const std::string kPicture = png_of({1, 2, 3, 4, 5, 6}, 2);
 const std::string kLibrary = "newmtl a\nmap_Kd p\nnewmtl b\nPm 1\nnorm p\n";
 
@@ -54,7 +80,8 @@ Companions picture_and_library() {
   return {{"p", as_bytes(kPicture)}, {"m", as_bytes(kLibrary)}};
 }
 
-// Returns an OBJ with faces of as few bytes as possible, which get coordinates and materials.
+// Returns an OBJ with as few bytes per face as possible. The faces have texture coordinates and
+// materials.
 std::string densest_textured_obj() {
   std::string obj = "mtllib m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 1\nusemtl a\nf 1/1 2/1 3/1\nf";
   for (int i = 0; i < 100; ++i)
@@ -62,7 +89,7 @@ std::string densest_textured_obj() {
   return obj + "\nusemtl b\nf 1 2 3\nusemtl a\nf 3 2 1\n";
 }
 
-// Returns a PLY with one byte for each number, whose faces alternate between two materials.
+// Returns a PLY with a single byte per number. Its faces alternate between two materials.
 std::string densest_textured_ply() {
   std::string ply =
       "ply\nformat binary_little_endian 1.0\ncomment TextureFile p\ncomment TextureFile q\n"
@@ -83,11 +110,14 @@ std::string densest_textured_ply() {
   return ply;
 }
 
-// The multiples are measured and rounded up. GLB needs memory for the tree of its JSON, and text
-// PLY for its header. The other formats need memory for repair if a change gives an edge many
-// faces. They need the most memory per byte if every number in the file is a single byte, because
-// numbers in memory are doubles or have 32 bits, and repair turns corners into vertices. Counts in
-// text have leading zeros, so that one changed bit makes them millions.
+// The number in each row is the allowed memory as a multiple of the file's size. It was measured
+// and rounded up. GLB and glTF files need memory for their JSON tree, and text PLY files for their
+// header. Other formats need memory for repair if a change gives an edge many faces.
+//
+// Files in which each number is a single byte need the most memory per byte. In memory, numbers are
+// doubles or have 32 bits, and repair turns corners into vertices.
+//
+// Counts in text files have leading zeros. A change of one bit can therefore turn 3 into millions.
 std::vector<IntactFile> intact_files() {
   return {
       {"PLY", written(MeshFormat::kPly), 4},
@@ -101,8 +131,9 @@ std::vector<IntactFile> intact_files() {
        30},
       {"densest PLY", densest_ply(), 52},
       {"textured GLB", textured(kPicture).file(), 8},
+      {"posed GLB", posed_glb(), 16},
       {"densest textured PLY", densest_textured_ply(), 43, picture_and_library()},
-      {"densest textured OBJ", densest_textured_obj(), 27, picture_and_library()},
+      {"densest textured OBJ", densest_textured_obj(), 30, picture_and_library()},
       {"text PLY",
        "ply\nformat ascii 1.0\nelement vertex 00000003\nproperty float x\nproperty float y\n"
        "property float z\nelement face 00000001\nproperty list uchar int "
@@ -131,7 +162,7 @@ std::size_t size_of(const Companions& beside) {
 }
 
 // Expects an error or a valid mesh. Reads a copy of exactly the right size, so that the address
-// sanitizer detects a read past the end.
+// sanitizer detects reads past the end.
 void expect_error_or_sound_mesh(const IntactFile& file, const std::string& bytes,
                                 const std::string& change) {
   SCOPED_TRACE(file.name + change);
@@ -181,8 +212,9 @@ TEST(HostileFiles, EveryByteReplaced) {
   }
 }
 
-// Instances of a mesh. Its primitives alternate between two materials. Each has `vertices` vertices
-// and `faces` faces, and primitives with the same material share their vertices.
+// A mesh that a scene shows `count` times. Its primitives alternate between two materials. Each
+// primitive has `vertices` vertices and `faces` faces. Primitives with the same material share
+// vertices.
 struct Instances {
   std::size_t count, primitives, vertices, faces;
 
@@ -192,8 +224,9 @@ struct Instances {
   std::size_t all_faces() const { return count * primitives * faces; }
 };
 
-// Returns a GLB with about one vertex and one face per byte. The vertices have both sets of
-// coordinates and a baked colour. All attributes are views of the same few bytes.
+// Returns a GLB that gives about one vertex and one face per byte of the file. Vertices have both
+// sets of texture coordinates and a colour from a texture. All attributes are views of the same few
+// bytes.
 std::string densest_instances(const Instances& instances) {
   using Json = GlbBuilder::Json;
   GlbBuilder builder = textured(kPicture);
@@ -223,8 +256,8 @@ std::string densest_instances(const Instances& instances) {
   return builder.file();
 }
 
-// The numbers of vertices and faces are just above a power of two, where vectors that double their
-// capacity waste the most.
+// The numbers of vertices and faces are just above powers of two. At these sizes, a std::vector
+// that doubles its capacity wastes the most memory.
 TEST(HostileFiles, InstancesWithBothSetsOfCoordinatesKeepTheBoundOfReading) {
   for (const Instances& instances :
        {Instances{.count = 257, .primitives = 1, .vertices = 64, .faces = 64},

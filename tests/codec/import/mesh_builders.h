@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small meshes for the tests of import and export.
+// Small meshes for tests of import and export.
 #pragma once
 
 #include "codec/import/read_mesh.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ files as real programs write them.
+// OBJ files in the style of real programs.
 #include "codec/import/cases.h"
 #include "codec/picture/pictures.h"
 
@@ -39,7 +39,7 @@ TEST(ObjCases, AnEmptyLastFieldKeepsTheNextCorner) {
               ElementsAre(Triangle{0, 2, 1}));
 }
 
-// Returns the four corners with these numbers after the coordinates, and the faces.
+// Returns a tetrahedron as OBJ. numbers[i] follows the coordinates of vertex i.
 std::string painted(const std::array<std::string, 4>& numbers) {
   return "v 0 0 0 " + numbers[0] + "\nv 1 0 0 " + numbers[1] + "\nv 0 1 0 " + numbers[2] +
          "\nv 0 0 1 " + numbers[3] + "\n" + kObjFaces;
@@ -96,7 +96,7 @@ TEST(ObjCases, DecimalCommasAreNamed) {
             "OBJ line 2: numbers have decimal commas; write them with points");
 }
 
-// Returns a mesh whose vertices are all at u = 0.25 and v = 0.5 of the material's picture.
+// Returns an OBJ whose vertices all have the texture coordinates (0.25, 0.5).
 std::string dressed(const std::string& libraries, const std::string& material = "m") {
   return libraries + "\n" + kObjCorners + "vt 0.25 0.5\nusemtl " + material +
          "\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 2/1 3/1 4/1\nf 3/1 1/1 4/1\n";
@@ -104,7 +104,8 @@ std::string dressed(const std::string& libraries, const std::string& material = 
 
 const std::vector<Colour> kAllRed(4, kRed), kAllBlue(4, kBlue);
 
-// Expects that a statement in the library shows this half of the picture "t a.png".
+// Expects that a material with this statement gives the vertices `colours`, from the picture "t
+// a.png".
 void expect_statement(const std::string& statement, const std::vector<Colour>& colours) {
   expect_case(
       {.situation = statement,
@@ -169,6 +170,29 @@ TEST(ObjCases, Libraries) {
        .beside = {{"a.mtl", other}}}};
   for (const Case& expected : cases)
     expect_case(expected);
+}
+
+TEST(ObjCases, NamesInWindows1252FindFilesNamedInUtf8) {
+  for (const std::string name : {"B\xFCste \x80.png", "maps\\B\xFCste \x80.png"}) {
+    expect_case({.situation = name,
+                 .file = dressed("mtllib B\xFCste.mtl"),
+                 .colours = kAllRed,
+                 .said = "1 texture map baked",
+                 .beside = {{"b\xC3\xBCste.mtl", "newmtl m\nmap_Kd " + name + "\n"},
+                            {"b\xC3\xBCste \xE2\x82\xAC.png", red_and_blue()}}});
+  }
+}
+
+TEST(ObjCases, PicturesOfOtherFormatsAreNamed) {
+  const std::string tiff("II*\0", 4), bmp = "BM" + std::string(60, '\0');
+  for (const auto& [picture, type] : {std::pair(tiff, "image/tiff"), std::pair(bmp, "image/bmp")}) {
+    const auto read =
+        read_case({.file = dressed("mtllib m.mtl"),
+                   .beside = {{"m.mtl", "newmtl m\nmap_Kd t.x\n"}, {"t.x", picture}}});
+    EXPECT_THAT(read.repairs,
+                ::testing::Contains(HasSubstr("'t.x' not carried: it is " + std::string(type) +
+                                              "; convert it to PNG, JPEG or WebP")));
+  }
 }
 
 TEST(ObjCases, ABlackMaterialShowsItsEmission) {

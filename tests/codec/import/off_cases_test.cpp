@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OFF files as real programs write them.
+// OFF files in the style of real programs.
 #include "codec/import/cases.h"
 
 namespace vitrine {
@@ -12,7 +12,8 @@ using vitrine::testing::kFourCases;
 using vitrine::testing::kRedCase;
 using vitrine::testing::refusal;
 
-// Returns a tetrahedron: the start of the file, numbers after each vertex, and after each face.
+// Returns a tetrahedron as OFF: the start of the file, then the vertices and the faces. The given
+// numbers follow each vertex and each face.
 std::string off(const std::string& start, const std::array<std::string, 4>& vertices = {},
                 const std::array<std::string, 4>& faces = {}) {
   std::string out = start + "\n";
@@ -35,7 +36,7 @@ constexpr const char* kCoordinatesLost = "texture coordinates not carried";
 const std::array<std::string, 4> kRgba{"255 0 0 255 ", "0 255 0 255 ", "0 0 255 255 ",
                                        "200 200 0 255 "};
 
-// Returns kRgba with numbers before and after each.
+// Returns kRgba with `before` in front of each entry and `after` behind it.
 std::array<std::string, 4> around_rgba(const std::string& before, const std::string& after) {
   std::array<std::string, 4> out = kRgba;
   for (std::string& numbers : out)
@@ -117,8 +118,9 @@ TEST(OffCases, AMissingColourIsNamedWithItsLine) {
 }
 
 TEST(OffCases, OtherNumbersAreNoOff) {
-  EXPECT_THAT(refusal("3 1 0\n4 5 6\n7 8 9\n"), HasSubstr("not a mesh file"));
-  EXPECT_THAT(refusal("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), HasSubstr("not a mesh file"));
+  EXPECT_THAT(refusal("3 1 0\n4 5 6\n7 8 9\n"), HasSubstr("this is a list of points"));
+  EXPECT_THAT(refusal("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
+              HasSubstr("this is a list of points"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY files as real programs write them.
+// PLY files in the style of real programs.
 #include <bit>
 
 #include "codec/import/cases.h"
@@ -19,7 +19,7 @@ using vitrine::testing::kRedCase;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 
-// The further properties of vertices and faces, and their values in each row.
+// Additional properties of vertices and faces, and their values for each vertex and face.
 struct PlyRows {
   std::string vertex_properties = "", index = "int", face_properties = "";
   std::array<std::string, 4> vertices = {}, faces = {};
@@ -70,7 +70,8 @@ std::string with_packed(const std::string& property, const std::array<std::strin
   return PlyRows{.vertex_properties = "property " + property + "\n", .vertices = vertices}.file();
 }
 
-// Returns a binary file with one coloured corner more than the corners of its only face.
+// Returns a binary PLY with one face. Each of its three vertices has the packed colour `colour`.
+// `property` declares the colour's type and name.
 std::string binary_packed(const std::string& property, const std::string& colour) {
   return "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
          "property float y\nproperty float z\nproperty " +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLB files with KHR_draco_mesh_compression. Draco itself encodes the primitives.
+// Tests GLB files with KHR_draco_mesh_compression. Draco encodes the primitives.
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
 
@@ -29,7 +29,7 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco:
   return id;
 }
 
-// Returns grid(n) as a Draco mesh. The colours of its vertices alternate between magenta and blue.
+// Returns grid(n) as a Draco mesh. The vertex colours alternate between magenta and blue.
 std::unique_ptr<draco::Mesh> draco_grid(std::uint32_t n) {
   const TriangleMesh source = grid(n);
   auto mesh = std::make_unique<draco::Mesh>();
@@ -55,7 +55,7 @@ std::string coded(const std::unique_ptr<draco::Mesh>& mesh, int method) {
   return {buffer.data(), buffer.size()};
 }
 
-// Returns a GLB of one primitive with the Draco data `data`, as Draco's exporters write it.
+// Returns a GLB with one primitive, whose compressed data is `data`, as Draco's exporters write it.
 GlbBuilder around(const std::string& data, std::uint32_t n) {
   GlbBuilder builder;
   builder.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
@@ -143,7 +143,8 @@ TEST(ReadDracoGlb, RefusesOtherVersionsMetadataAndDamage) {
               HasSubstr("cannot be decoded"));
 }
 
-// The encoder may merge or split points after the exporter has counted them.
+// An encoder may merge or split points after the exporter has counted them, so accessors can state
+// wrong counts.
 TEST(ReadDracoGlb, ThePointsOfTheDataGoBeforeTheCountsOfTheAccessors) {
   for (const int count : {1, 15, 17, 2'000'000'000}) {
     GlbBuilder builder = around(coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING), 3);
@@ -152,6 +153,7 @@ TEST(ReadDracoGlb, ThePointsOfTheDataGoBeforeTheCountsOfTheAccessors) {
     const auto result = read_text(builder.file());
     EXPECT_EQ(result.mesh.faces.size(), 18u);
     EXPECT_EQ(result.mesh.attributes.colours.size(), 16u);
+    EXPECT_THAT(result.repairs, ::testing::Contains(HasSubstr("2 accessors with a wrong count")));
   }
 }
 

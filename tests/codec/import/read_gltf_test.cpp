@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files as text, with buffers and pictures beside them or in data: URIs.
+// Tests glTF files as text, with buffers and pictures in companion files or in data: URIs.
 #include "codec/import/glb_builder.h"
 #include "codec/picture/pictures.h"
 
@@ -14,7 +14,7 @@ using vitrine::testing::kBlue;
 using vitrine::testing::kRed;
 using vitrine::testing::red_and_blue;
 
-// Returns one triangle whose corners are at u = 0.25, 0.75 and 1.25 of the picture "My skin.png".
+// Returns one triangle. Its corners are at u = 0.25, 0.75 and 1.25 of the picture "My skin.png".
 GlbBuilder skinned() {
   GlbBuilder builder;
   const std::size_t points = builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
@@ -80,7 +80,7 @@ TEST(ReadGltf, AMissingFileIsNamedWithTheNextStep) {
   EXPECT_THAT(result->repairs, ElementsAre(HasSubstr("it is the file 'maps/My skin.png', which")));
 }
 
-// The picture is looked up before the positions.
+// The reader looks up the picture before the positions.
 TEST(ReadGltf, AMissingBufferWithAPictureIsNamedToo) {
   GlbBuilder builder = skinned();
   builder.document["images"][0] = {{"bufferView", builder.view(red_and_blue())}};
@@ -103,7 +103,8 @@ TEST(ReadGltf, PercentSignsWithoutDigitsStay) {
 }
 
 TEST(ReadGltf, OtherJsonIsNoMesh) {
-  EXPECT_THAT(read_beside("{\"a\": 1}", {}).error().message, HasSubstr("not a mesh file"));
+  EXPECT_THAT(read_beside("{\"a\": 1}", {}).error().message,
+              HasSubstr("this is JSON that is not glTF"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLB files with EXT_meshopt_compression. meshoptimizer itself encodes the buffers.
+// Tests GLB files with EXT_meshopt_compression. meshoptimizer encodes the buffers.
 #include <meshoptimizer.h>
 
 #include "codec/import/glb_builder.h"
@@ -46,8 +46,8 @@ std::vector<std::uint32_t> indices_of(const TriangleMesh& mesh) {
   return indices;
 }
 
-// Adds a view as gltfpack writes it: compressed, and with a fallback buffer that has no bytes.
-// Returns the index of the view.
+// Adds a compressed buffer view as gltfpack does, with a fallback buffer that has no bytes. Returns
+// the index of the view.
 std::size_t compressed_view(GlbBuilder& builder, const std::string& bytes, const char* mode,
                             std::size_t count, std::size_t stride, const char* filter = "NONE") {
   Json compression = builder.place(bytes);
@@ -59,7 +59,7 @@ std::size_t compressed_view(GlbBuilder& builder, const std::string& bytes, const
                          {"extensions", {{"EXT_meshopt_compression", compression}}}});
 }
 
-// Returns a GLB of grid(n) with positions as 16-bit integers, which KHR_mesh_quantization allows.
+// Returns a GLB of grid(n). Its positions are 16-bit integers, as KHR_mesh_quantization allows.
 GlbBuilder compressed_grid(std::uint32_t n, const char* index_mode = "TRIANGLES") {
   const TriangleMesh mesh = grid(n);
   std::vector<std::uint16_t> positions;
@@ -85,8 +85,8 @@ GlbBuilder compressed_grid(std::uint32_t n, const char* index_mode = "TRIANGLES"
   return builder;
 }
 
-// Returns the faces, each rotated to start at its smallest vertex, because the index codec may
-// rotate them.
+// Returns the faces, each rotated to start at its smallest vertex. The index codec may rotate
+// faces, so tests compare rotated ones.
 std::vector<Triangle> turned(std::vector<Triangle> faces) {
   for (Triangle& face : faces)
     std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());

@@ -83,7 +83,7 @@ TEST(ReadPly, StepsOverUnknownElementsAndPropertiesAndListsAnywhere) {
              "property list uchar float weights\nproperty double z\n"
              "element face 1\nproperty short material\nproperty list int uint vertex_index\n"
              "property list uchar uchar flags\nelement edge 0\nproperty int vertex1\n") +
-      bytes_of<double>({60}) + bytes_of<std::uint16_t>({2, 7, 7}) +  // the camera element
+      bytes_of<double>({60}) + bytes_of<std::uint16_t>({2, 7, 7}) +  // the element "camera"
       "q" + bytes_of<double>({0, 0}) + std::string(1, 0) + bytes_of<double>({0}) +  //
       "q" + bytes_of<double>({1.5, 0}) + "\x01" + bytes_of<float>({9}) + bytes_of<double>({0}) +
       "q" + bytes_of<double>({0, -2.25}) + std::string(1, 0) + bytes_of<double>({0}) +
@@ -139,11 +139,12 @@ TEST(ReadPly, TriangleStrips) {
               ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}, Triangle{0, 1, 2}));
 }
 
-TEST(ReadPly, SaysThatATextureIsNotCarried) {
+TEST(ReadPly, SaysThatATextureWithoutCoordinatesIsNotCarried) {
   const auto result = read_text(header("ascii", "comment TextureFile skin.png\n" + kPlain) +
                                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_THAT(result.repairs,
-              ElementsAre("texture map 'skin.png' not carried: it is not beside the mesh file"));
+              ElementsAre("1 texture map not carried: the file has no texture coordinates; export "
+                          "them, too"));
 }
 
 TEST(ReadPly, RefusesACountThatTheFileCannotHold) {

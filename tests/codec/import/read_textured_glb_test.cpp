@@ -83,7 +83,7 @@ TEST(ReadTexturedGlb, AJpegIsRead) {
   EXPECT_NEAR(read_text(textured(picture).file()).mesh.attributes.colours.at(0)[0], 100, 3);
 }
 
-// Returns the fault that the reader reports for the only picture of a file.
+// Returns the fault that the reader reports for the only picture of a glTF file.
 std::string fault_of(const GlbBuilder& builder) {
   const auto result = read_text(builder.file());
   EXPECT_THAT(result.mesh.attributes.colours, ElementsAre());
@@ -120,7 +120,7 @@ TEST(ReadTexturedGlb, APictureInAnUnreadableViewIsNamedWithTheReason) {
                                      "file; copy it there, or export GLB with all in one file");
 }
 
-// Adds an image, which lies in buffer view `view`, with a material and a primitive that use it.
+// Adds an image stored in buffer view `view`, and a material and a primitive that use the image.
 void add_image(GlbBuilder& builder, std::size_t view) {
   const std::size_t image = builder.append("images", {{"bufferView", view}});
   const std::size_t texture = builder.append("textures", {{"source", image}});
@@ -169,7 +169,7 @@ TEST(ReadTexturedGlb, ThePlainPictureGoesBeforeThatOfAnUnreadExtension) {
   EXPECT_THAT(read_text(builder.file()).mesh.attributes.colours, ElementsAre(kRed, kBlue, kRed));
 }
 
-// red_and_blue() in base64.
+// The picture red_and_blue() as a base64 data: URI.
 const std::string kUri =
     "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR42mP4zwAE/wEHAAH/"
     "PX2MSQAAAABJRU5ErkJggg==";

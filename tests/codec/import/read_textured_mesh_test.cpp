@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ and PLY files with pictures beside them.
+// Tests OBJ and PLY files with pictures in companion files.
 #include "codec/import/reading.h"
 #include "codec/picture/pictures.h"
 
@@ -9,6 +9,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using vitrine::testing::as_bytes;
 using vitrine::testing::kBetween;
 using vitrine::testing::kBlue;
@@ -75,7 +76,10 @@ TEST(ReadTexturedObj, ColoursOfTheVerticesGoFirst) {
   text.replace(text.find("v 0 0 0\n"), 8, "v 0 0 0 0 1 0\n");
   const auto result = read_with(text, {{"bust.mtl", kLibrary}, {"skin.png", kPicture}});
   EXPECT_EQ(result.mesh.attributes.colours[0], (Colour{0, 255, 0}));
-  EXPECT_THAT(result.repairs, Contains(HasSubstr("the vertices have colours of their own")));
+  EXPECT_THAT(result.repairs, Not(Contains(HasSubstr("not carried"))));
+  EXPECT_FALSE(result.texturing.empty());
+  const auto plain = read_with(text, {{"bust.mtl", "newmtl my skin\nKd 1 0 0\n"}});
+  EXPECT_THAT(plain.repairs, Contains(HasSubstr("the vertices have colours of their own")));
 }
 
 std::string ply(const std::string& vertex, const std::string& face, const std::string& body) {

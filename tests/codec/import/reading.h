@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Helpers for the tests of the readers.
+// Helpers for tests of the readers.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -21,14 +21,14 @@ inline ImportedMesh read_text(std::string_view text) {
   return result ? *std::move(result) : ImportedMesh{};
 }
 
-// Returns the message with which the reader refuses the text.
+// Expects that the reader refuses the file `text`. Returns the error message.
 inline std::string refusal(std::string_view text) {
   const auto result = read_mesh(as_bytes(text));
   EXPECT_FALSE(result.has_value());
   return result ? "" : result.error().message;
 }
 
-// A word that scanners and converters write for an unknown number, and its value as a float.
+// A word that scanners and converters write for an unknown number, with its value as a float.
 struct NotFinite {
   const char* text;
   float value;
@@ -37,8 +37,8 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr NotFinite kNotFinite[] = {
     {"nan", std::numeric_limits<float>::quiet_NaN()}, {"inf", kInfinity}, {"-inf", -kInfinity}};
 
-// Expects that the reader has dropped the first of four vertices. No face uses that vertex, and its
-// coordinates are not finite.
+// Expects that the reader has removed the first of four vertices, whose coordinates are not finite
+// and which no face uses.
 inline void expect_first_dropped(const ImportedMesh& imported) {
   EXPECT_EQ(imported.mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_THAT(imported.mesh.faces, ::testing::ElementsAre(Triangle{0, 1, 2}));
@@ -47,8 +47,8 @@ inline void expect_first_dropped(const ImportedMesh& imported) {
       ::testing::Contains(::testing::HasSubstr("1 point without finite coordinates dropped")));
 }
 
-// Expects that the reader refuses the file and names its first vertex. That vertex is not finite,
-// and faces use it.
+// Expects that the reader refuses the file and names the first vertex, whose coordinates are not
+// finite and which faces use.
 inline void expect_first_named(std::string_view file) {
   EXPECT_THAT(refusal(file), ::testing::HasSubstr(
                                  "vertex 0 (counted from 0) has a coordinate that is not a finite "

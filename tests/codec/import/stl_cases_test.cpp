@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// STL files as real programs write them.
+// STL files in the style of real programs.
 #include "codec/export/write_mesh.h"
 #include "codec/import/cases.h"
 
@@ -18,8 +18,8 @@ using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 using vitrine::testing::tetrahedron;
 
-// Returns a binary tetrahedron whose header starts with `header` and counts `count` facets. The
-// facets end with `attributes`.
+// Returns a tetrahedron as binary STL. The header starts with `header` and states `count` facets.
+// attributes[i] becomes the last two bytes of facet i.
 std::string binary_stl(std::uint32_t count, const std::string& header = "binary",
                        const std::vector<std::uint16_t>& attributes = {}) {
   std::string file = as_text(*write_mesh(tetrahedron(), MeshFormat::kStl));
@@ -56,7 +56,7 @@ TEST(StlCases, TheSizeOfTheFileCountsTheFacets) {
     expect_case(expected);
 }
 
-// Text becomes small numbers if its bytes are read as facets.
+// The bytes of text give plausible small floats if they are read as facets.
 TEST(StlCases, TextOfNumbersIsNoFacets) {
   const std::string text = "OFF 3 1 0" + std::string(80, ' ') + "\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (std::size_t blanks = 0; blanks < 50; ++blanks)
@@ -95,7 +95,7 @@ TEST(StlCases, ColoursOfBinaryFacets) {
     expect_case(expected);
 }
 
-// Returns a tetrahedron as text, with these spellings.
+// Writes a tetrahedron as text STL with the given spelling of each statement.
 struct Spelling {
   std::string solid = "solid x", normal = "normal 0 0 0", outer = "outer loop",
               loop_end = "endloop", facet_end = "endfacet", solid_end = "endsolid x";

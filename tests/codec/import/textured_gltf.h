@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small textured glTF for tests.
+// A small textured glTF file for tests.
 #pragma once
 
 #include "codec/import/glb_builder.h"
@@ -7,7 +7,7 @@
 
 namespace vitrine::testing {
 
-// Returns one triangle whose corners are at u = 0.25, 0.75 and 1.25 of `picture`.
+// Returns one triangle. Its corners are at u = 0.25, 0.75 and 1.25 of `picture`.
 inline GlbBuilder textured(const std::string& picture) {
   GlbBuilder builder;
   const std::size_t points = builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);

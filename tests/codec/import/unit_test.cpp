@@ -39,7 +39,7 @@ TEST(Unit, IsUnknownWhereACommentSaysSomethingElse) {
 
 TEST(Unit, IsReadFromEveryFormatThatVitrineWritesItInto) {
   for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kStl}) {
-    EXPECT_EQ(read_text(as_text(*write_mesh(tetrahedron(), format, "mm"))).unit, "mm");
+    EXPECT_EQ(read_text(as_text(*write_mesh(tetrahedron(), format, {.unit = "mm"}))).unit, "mm");
     EXPECT_EQ(read_text(as_text(*write_mesh(tetrahedron(), format))).unit, "");
   }
   EXPECT_EQ(read_text("solid bust UNITS=cm\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
@@ -50,7 +50,8 @@ TEST(Unit, IsReadFromEveryFormatThatVitrineWritesItInto) {
 }
 
 TEST(Unit, OfAGlbIsTheMetreAndItIsWrittenInMetres) {
-  const auto known = read_text(as_text(*write_mesh(tetrahedron(), MeshFormat::kGlb, "in")));
+  const auto known =
+      read_text(as_text(*write_mesh(tetrahedron(), MeshFormat::kGlb, {.unit = "in"})));
   EXPECT_EQ(known.unit, "m");
   EXPECT_FLOAT_EQ(static_cast<float>(known.mesh.positions[1].x), 0.0254f);
   const auto unknown = read_text(as_text(*write_mesh(tetrahedron(), MeshFormat::kGlb)));

@@ -87,7 +87,7 @@ TEST(DecodePicture, TheTransparentColourOfAPngBecomesOpacity) {
   EXPECT_THAT(pixels_of(png), ElementsAre(1, 2, 3, 255, 4, 5, 6, 0));
 }
 
-// The passes of an interlaced PNG are complete from 8 x 8 pixels on.
+// From 8 x 8 pixels on, an interlaced PNG has pixels in each of its passes.
 TEST(DecodePicture, AnInterlacedPngComesBackExactly) {
   StoredPng png{.type = PNG_COLOR_TYPE_RGBA, .width = 11, .is_interlaced = true};
   std::vector<std::uint8_t> all;
@@ -143,10 +143,53 @@ TEST(DecodePicture, AWebpOfOneColourMayHaveFewBytes) {
   EXPECT_EQ(picture->at(1000, 1000), (Colour{77, 77, 77}));
 }
 
+// Returns a JPEG in CMYK. `pixels` holds inverted CMYK bytes, in rows of `width` pixels.
+std::string cmyk_jpeg_of(const std::vector<std::uint8_t>& pixels, int width) {
+  const tjhandle jpeg = tjInitCompress();
+  unsigned char* data = nullptr;
+  unsigned long size = 0;
+  const int height = static_cast<int>(pixels.size()) / 4 / width;
+  EXPECT_EQ(tjCompress2(jpeg, pixels.data(), width, 0, height, TJPF_CMYK, &data, &size, TJSAMP_444,
+                        100, 0),
+            0);
+  std::string out(reinterpret_cast<const char*>(data), size);
+  tjFree(data);
+  tjDestroy(jpeg);
+  return out;
+}
+
+TEST(DecodePicture, AJpegInCmykBecomesRgb) {
+  const std::vector<std::array<std::uint8_t, 4>> inks{
+      {255, 0, 0, 255}, {255, 255, 255, 128}, {0, 200, 100, 255}};
+  const std::vector<Colour> colours{{255, 0, 0}, {128, 128, 128}, {0, 200, 100}};
+  for (std::size_t i = 0; i < inks.size(); ++i) {
+    std::vector<std::uint8_t> pixels;
+    for (int k = 0; k < 64; ++k)
+      pixels.insert(pixels.end(), inks[i].begin(), inks[i].end());
+    const auto picture = decode_picture(as_bytes(cmyk_jpeg_of(pixels, 8)), Limits{}.pixels);
+    ASSERT_TRUE(picture) << picture.error().message;
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(picture->at(4, 4)[k], colours[i][k], 4);
+    EXPECT_EQ(picture->pixels[3], 255);
+  }
+}
+
+TEST(DecodePicture, NamesOtherFormats) {
+  const std::string tga("\0\0\x02\0\0\0\0\0\0\0\0\0\x02\0\x02\0\x18\0", 18);
+  EXPECT_EQ(fault(tga + std::string(12, 'a')), "is image/x-tga; convert it to PNG, JPEG or WebP");
+  EXPECT_EQ(fault(std::string(40, 'a') + std::string("TRUEVISION-XFILE.\0", 18)),
+            "is image/x-tga; convert it to PNG, JPEG or WebP");
+  EXPECT_EQ(fault("BM" + std::string(60, '\0')), "is image/bmp; convert it to PNG, JPEG or WebP");
+  EXPECT_EQ(fault("8BPS" + std::string(60, '\0')),
+            "is image/vnd.adobe.photoshop; convert it to PNG, JPEG or WebP");
+}
+
 TEST(DecodePicture, RefusesOtherContentAndDamage) {
   EXPECT_EQ(fault("P6 1 1 255 ..."), "is not PNG, JPEG or WebP; convert it to one of them");
   EXPECT_EQ(fault("GIF89a"), "is image/gif; convert it to PNG, JPEG or WebP");
   EXPECT_EQ(fault(std::string("II*\0", 4)), "is image/tiff; convert it to PNG, JPEG or WebP");
+  for (const std::string& big_tiff : {std::string("II+\0\b\0", 6), std::string("MM\0+\0\b", 6)})
+    EXPECT_EQ(fault(big_tiff), "is image/tiff; convert it to PNG, JPEG or WebP");
   EXPECT_EQ(fault("RIFF....WAVE"), "is not PNG, JPEG or WebP; convert it to one of them");
   EXPECT_EQ(fault(red_and_blue().substr(0, 40)), "is a damaged PNG; export it again");
   EXPECT_EQ(fault(jpeg_of(std::vector<std::uint8_t>(192, 9), 8).substr(0, 300)),
@@ -175,7 +218,8 @@ TEST(DecodePicture, ADamagedPictureCountsAsDecodedPixels) {
   EXPECT_EQ(left, 50u);
 }
 
-// The size of a lossless WebP is in bytes 21 to 24: width - 1 and height - 1 with 14 bits each.
+// Returns a WebP whose header states a false size. A lossless WebP stores width - 1 and height - 1
+// in bytes 21 to 24, with 14 bits each.
 std::string webp_that_claims(std::uint32_t width, std::uint32_t height) {
   std::string bytes = webp_of({1, 2, 3}, 1);
   const std::uint32_t size = (height - 1) << 14 | (width - 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures, encoded by the libraries that decode them.
+// Small pictures, encoded by the same libraries that decode them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@
 
 namespace vitrine::testing {
 
-// The pixels of red_and_blue(), and the colour halfway between them in linear light.
+// The pixel colours of red_and_blue(), and the colour halfway between them in linear light.
 inline constexpr Colour kRed{255, 0, 0}, kBlue{0, 0, 255}, kBetween{188, 0, 188};
 
-// Returns a PNG. `pixels` are RGB, in rows from the top.
+// Returns a PNG file. `pixels` holds RGB bytes, in rows from top to bottom.
 inline std::string png_of(const std::vector<std::uint8_t>& pixels, std::uint32_t width) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -33,7 +33,7 @@ inline std::string png_of(const std::vector<std::uint8_t>& pixels, std::uint32_t
   return out;
 }
 
-// A PNG whose pixels are stored in a type of libpng, such as PNG_COLOR_TYPE_GRAY.
+// A PNG file whose pixels have a given libpng colour type, such as PNG_COLOR_TYPE_GRAY.
 struct StoredPng {
   int type = PNG_COLOR_TYPE_RGB, depth = 8;
   std::uint32_t width = 1;
@@ -82,7 +82,7 @@ inline std::string jpeg_of(const std::vector<std::uint8_t>& pixels, int width) {
   return out;
 }
 
-// Copies a buffer of libwebp to a text and releases it.
+// Copies a buffer of libwebp to a string and frees the buffer.
 inline std::string take_webp(std::uint8_t* data, std::size_t size) {
   EXPECT_GT(size, 0u);
   std::string out(reinterpret_cast<const char*>(data), size);
@@ -90,7 +90,7 @@ inline std::string take_webp(std::uint8_t* data, std::size_t size) {
   return out;
 }
 
-// Returns a lossless WebP.
+// Returns a lossless WebP file. `pixels` holds RGB bytes, in rows from top to bottom.
 inline std::string webp_of(const std::vector<std::uint8_t>& pixels, int width) {
   std::uint8_t* data = nullptr;
   const int height = static_cast<int>(pixels.size()) / 3 / width;
@@ -105,7 +105,7 @@ inline std::string lossy_webp_of(const std::vector<std::uint8_t>& pixels, int wi
   return take_webp(data, size);
 }
 
-// Returns a PNG of a red pixel beside a blue one.
+// Returns a PNG of two pixels: red at the left, blue at the right.
 inline std::string red_and_blue() {
   return png_of({255, 0, 0, 0, 0, 255}, 2);
 }

@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// The codec does not know the commands that use it.
+// The error must not say what to do next, because the codec does not know which command runs.
 TEST(PngFile, ThePictureWithoutPixelsIsRefusedWithTheReasonAlone) {
   const auto file = write_png({});
   ASSERT_FALSE(file);

@@ -22,7 +22,8 @@ TEST(Sample, LiesBetweenPixelCentresInLinearLight) {
   };
   EXPECT_EQ(at(0.25), (Colour{255, 0, 0}));
   EXPECT_EQ(at(0.75), (Colour{0, 0, 255}));
-  EXPECT_EQ(at(0.5), (Colour{188, 0, 188}));  // sRGB value of half the light of each colour
+  // The mean of red and blue in linear light has the sRGB value 188.
+  EXPECT_EQ(at(0.5), (Colour{188, 0, 188}));
   EXPECT_EQ(at(1.25), (Colour{255, 0, 0}));
   EXPECT_EQ(at(-0.25), (Colour{0, 0, 255}));
   EXPECT_EQ(at(1.25, Wrap::kClamp), (Colour{0, 0, 255}));

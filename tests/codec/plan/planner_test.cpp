@@ -6,8 +6,8 @@
 namespace vitrine {
 namespace {
 
-// Returns a manifest of levels with 100, 200, 400 and 800 faces. From level 2 on, there are two
-// regions. Each chunk has 1,000 bytes.
+// Returns a manifest with levels of 100, 200, 400 and 800 faces. There are two regions from level 2
+// on. Each chunk has 1,000 bytes.
 Manifest four_levels() {
   Manifest m;
   m.base_offset = 300;
@@ -73,7 +73,7 @@ TEST(Planner, AnErrorIsMetByTheCoarsestLevelBelowIt) {
   EXPECT_EQ(plan(WantError{0}), (Chunks{0, 1, 2, 3, 4}));
 }
 
-// The test would take minutes if each step counted all chunks that are held.
+// If each step counted all chunks held so far, this test would take minutes.
 TEST(Planner, ManyChunksArePlannedOneAfterTheOther) {
   constexpr std::uint32_t kLevels = 300'000;
   Manifest m;

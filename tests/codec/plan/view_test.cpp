@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that a camera gets all chunks that it needs, less than the whole model, and other chunks
-// than another camera.
+// Checks that a camera gets all the chunks that it needs, that these are less than the whole model,
+// and that a different camera gets different chunks.
 #include "codec/plan/view.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 using test::StoredModel;
 using Chunks = std::vector<std::size_t>;
 
-// Returns a torus of many regions. Each level has half the error of the level before.
+// Returns a torus with many regions. Each level has half the error of the previous one.
 const StoredModel& torus_of_regions() {
   static const StoredModel model = [] {
     const TriangleMesh torus = test::torus(300, 150);
@@ -47,12 +47,12 @@ ModelExtent extent_of(const Manifest& m) {
   return {(low + high) * 0.5, high - low};
 }
 
-// Returns a view that looks along +x (`sense` 1) or -x (-1) at the middle of the model's near side,
-// at `distance` from that side.
+// Returns a view along +x (if `sense` is 1) or -x (if -1). It looks at the middle of the model's
+// near side from the distance `distance`.
 View along_x(const Manifest& m, double sense, double distance) {
   const ModelExtent extent = extent_of(m);
   const double x = extent.centre.x - sense * (extent.size.x / 2 + distance);
-  const double right = sense;  // y points up, so right is z or -z
+  const double right = sense;  // y points up, so right is +z or -z
   return {.camera = {0, 0, right, 0, 0, 1, 0, 0, -sense, 0, 0, 0, x, extent.centre.y,
                      extent.centre.z, 1},
           .field_of_view = 30,
@@ -131,7 +131,7 @@ TEST(View, NoErrorInSightIsAboveOnePixel) {
   }
 }
 
-// Returns the depth of a point, or infinity if the point is out of sight.
+// Returns the depth of a point, or infinity if the view does not show the point.
 double depth_in_sight(const Vec3& p, const View& view) {
   const auto axis = [&](std::size_t k) {
     return Vec3{view.camera[4 * k], view.camera[4 * k + 1], view.camera[4 * k + 2]};
@@ -144,7 +144,7 @@ double depth_in_sight(const Vec3& p, const View& view) {
   return seen ? depth : std::numeric_limits<double>::infinity();
 }
 
-// Returns the smallest depth among those points of a grid in the box that are in sight.
+// Returns the smallest depth of those grid points in the box that the view shows.
 double least_depth(const LatticeBox& box, const View& view) {
   constexpr int kSteps = 40;
   const Vec3 low = to_vec3(box.low), size = to_vec3(box.high) - low;
@@ -175,11 +175,11 @@ TEST(View, ABoxIsAsNearAsWhatIsInSightOfIt) {
     const double slope = std::tan(view.field_of_view / 2 * std::numbers::pi / 180);
     const double depth = kSmall / pixels * view.height / (2 * slope);
     EXPECT_LE(depth, sampled * (1 + kSmall)) << i;
-    // skips a box next to the eye, and a box of which no grid point is in sight
+    // Skips boxes next to the eye, and boxes of which no grid point is visible.
     if (depth < 2 || sampled > 1e9) continue;
-    EXPECT_GT(depth, sampled - 6) << i;  // four steps of the coarsest grid
+    EXPECT_GT(depth, sampled - 6) << i;  // 6 is four steps of the coarsest grid
     ++seen;
-    // counts the boxes whose visible part begins deeper than the box
+    // Counts the boxes whose visible part begins well behind the near side of the box.
     beside += sampled > low.x - view.camera[12] + 10 ? 1 : 0;
   }
   EXPECT_GT(seen, 100);
@@ -211,8 +211,8 @@ TEST(View, ABudgetIsNeverExceeded) {
   }
 }
 
-// Returns a manifest of 4 MB in which every region is next to all others. If `behind`, the second
-// half of the regions is behind a camera that looks along x.
+// Returns a manifest of 4 MB in which every region is adjacent to all others. If `behind` is true,
+// half of the regions lie behind a camera that looks along x.
 Manifest crowded_header(std::uint32_t regions, bool behind) {
   Manifest m;
   for (int level = 0; level < 40; ++level)
@@ -238,7 +238,7 @@ Manifest crowded_header(std::uint32_t regions, bool behind) {
   return m;
 }
 
-// Plans only one chunk. A whole plan would take minutes, because half of the regions wait for the
+// Plans only one chunk. A whole plan would take minutes, because half of the regions require the
 // other half.
 TEST(View, AHostileHeaderIsPlannedInBoundedSteps) {
   constexpr std::uint32_t kRegions = 2'000;

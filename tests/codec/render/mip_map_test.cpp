@@ -8,7 +8,7 @@
 namespace vitrine::test {
 namespace {
 
-// Returns a row of grey pixels.
+// Returns a picture of one row of grey pixels.
 Picture row_of(const std::vector<std::uint8_t>& greys) {
   return picture_of(static_cast<std::uint32_t>(greys.size()), 1,
                     [&](int x, int) -> std::array<std::uint8_t, 4> {
@@ -27,7 +27,7 @@ TEST(MipMap, EachLevelIsTheMeanOfTheAreaThatAPixelCovers) {
   EXPECT_NEAR(value_at(halves, 0.25f, 1), 20, 0.01);
   EXPECT_NEAR(value_at(halves, 0.75f, 1), 70, 0.01);
   EXPECT_NEAR(value_at(halves, 0.5f, 2), 45, 0.01);
-  // If five pixels become two, each of these covers two and a half.
+  // Five pixels become two, so each new pixel is the mean of two and a half pixels.
   const Picture odd = row_of({10, 20, 100, 60, 70});
   const MipMap shares(odd, PictureCoding::kValues);
   EXPECT_NEAR(value_at(shares, 0.25f, 1), (10 + 20 + 50) / 2.5, 0.01);
@@ -39,7 +39,7 @@ TEST(MipMap, ColoursAreAveragedInLinearLight) {
   const MipMap colours(picture, PictureCoding::kSrgb), values(picture, PictureCoding::kValues);
   EXPECT_NEAR(value_at(colours, 0.5f, 1), 127.5, 1);
   EXPECT_NEAR(value_at(colours, 0.5f, 0), 127.5, 0.01);
-  EXPECT_NEAR(value_at(values, 0.5f, 1), 127.5, 0.51);  // rounded to 8 bits
+  EXPECT_NEAR(value_at(values, 0.5f, 1), 127.5, 0.51);  // 127.5 is rounded to a whole byte
 }
 
 TEST(MipMap, BetweenTwoLevelsTheValueIsInterpolated) {

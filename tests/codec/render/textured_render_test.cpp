@@ -10,8 +10,8 @@ namespace {
 
 using Pixel = std::array<int, 4>;
 
-// Red at the upper left, green at the upper right, blue at the lower left, white at the lower
-// right.
+// Returns a picture of four pixels: red at the upper left, green at the upper right, blue at the
+// lower left, white at the lower right.
 Picture four_colours() {
   return picture_of(2, 2, [](int x, int y) -> std::array<std::uint8_t, 4> {
     if (y == 0)
@@ -41,7 +41,8 @@ TEST(TexturedRender, ATransformScalesTurnsAndShiftsTheCoordinates) {
   map.is_nearest = true;
   map.transform = {.offset = {0.5, 0}, .scale = {0.25, 0.25}, .rotation = 0};
   EXPECT_EQ(pixel_of(square.seen(8), 4, 4), kPureGreen);
-  // A quarter turn counter-clockwise about the upper left corner maps (u, v) to (v, -u).
+  // Rotates by a quarter turn counter-clockwise about the upper left corner: (u, v) becomes (v,
+  // -u).
   map.transform = {.offset = {0, 1}, .scale = {1, 1}, .rotation = std::numbers::pi / 2};
   const Picture turned = square.seen(32);
   EXPECT_EQ(pixel_of(turned, 4, 4), kPureBlue);
@@ -62,11 +63,11 @@ TEST(TexturedRender, CoordinatesOutsideThePictureRepeatMirrorOrStop) {
 
 TEST(TexturedRender, FactorMapAndVertexColourMultiplyInLinearLight) {
   TexturedSquare square;
-  square.show(plain_picture({188, 188, 188, 255}));  // half of white
+  square.show(plain_picture({188, 188, 188, 255}));  // sRGB value for half the light of white
   square.material().base_colour = {0.5, 1, 1, 1};
   square.mesh.attributes.colours.assign(4, Colour{255, 188, 255});
   const Pixel pixel = pixel_of(square.seen(4), 1, 1);
-  EXPECT_NEAR(pixel[0], 137, 1);  // a quarter
+  EXPECT_NEAR(pixel[0], 137, 1);  // sRGB value for a quarter of the light of white
   EXPECT_NEAR(pixel[1], 137, 1);
   EXPECT_NEAR(pixel[2], 188, 1);
 }
@@ -92,7 +93,8 @@ TEST(TexturedRender, ACheckerboardSeenFromFarIsEvenGrey) {
   }
 }
 
-// Returns the brightness of a lit white square whose map of normals has one colour.
+// Returns the brightness of a lit white square. All pixels of its normal map have the colour
+// `normal`.
 int brightness(TexturedSquare square, const std::array<std::uint8_t, 4>& normal) {
   square.pictures = {plain_picture(normal)};
   square.material().is_unlit = false;
@@ -103,10 +105,10 @@ int brightness(TexturedSquare square, const std::array<std::uint8_t, 4>& normal)
 TEST(TexturedRender, ANormalMapTurnsTheSurfaceToTheLampAtTheUpperLeft) {
   const TexturedSquare square;
   const int flat = brightness(square, {128, 128, 255, 255});
-  EXPECT_GT(brightness(square, {64, 128, 238, 255}), flat);   // left
-  EXPECT_LT(brightness(square, {192, 128, 238, 255}), flat);  // right
-  EXPECT_GT(brightness(square, {128, 192, 238, 255}), flat);  // up
-  EXPECT_LT(brightness(square, {128, 64, 238, 255}), flat);   // down
+  EXPECT_GT(brightness(square, {64, 128, 238, 255}), flat);   // normal tilted to the left
+  EXPECT_LT(brightness(square, {192, 128, 238, 255}), flat);  // normal tilted to the right
+  EXPECT_GT(brightness(square, {128, 192, 238, 255}), flat);  // normal tilted upwards
+  EXPECT_LT(brightness(square, {128, 64, 238, 255}), flat);   // normal tilted downwards
   TexturedSquare plain;
   plain.material().is_unlit = false;
   EXPECT_NEAR(pixel_of(plain.seen(4), 1, 1)[1], flat, 1);
@@ -118,7 +120,7 @@ TEST(TexturedRender, TheTangentsOfANormalMapFollowTheTextureCoordinates) {
     for (TextureCoordinates& uv : corners)
       uv[0] = 1 - uv[0];
   }
-  // The picture's right side is now the square's upper side.
+  // The right side of the picture is now at the upper side of the square.
   for (auto& corners : turned.texturing.coordinates[0]) {
     for (TextureCoordinates& uv : corners)
       uv = {1 - uv[1], uv[0]};
@@ -167,7 +169,8 @@ TEST(TexturedRender, AnOpaqueMaterialIgnoresTheOpacityOfItsPicture) {
   EXPECT_EQ(pixel_of(square.seen(8), 3, 3), kPureRed);
 }
 
-// White is the default of a material, and tells as little of the colour as no material.
+// White is a material's default colour, so it says no more about the surface than a missing
+// material.
 TEST(TexturedRender, AWhiteMaterialLooksLikeNoMaterial) {
   TexturedSquare square;
   square.material().is_unlit = false;

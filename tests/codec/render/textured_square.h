@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A square with one picture, seen from the front, so that the picture fills the view.
+// A square with one picture. It is seen from the front, so that the picture fills the view.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace vitrine::test {
 
-// Returns a picture whose pixels are `pixel(x, y)`: red, green, blue and opacity.
+// Returns a picture. `pixel(x, y)` gives the red, green, blue and opacity of each pixel.
 inline Picture picture_of(std::uint32_t width, std::uint32_t height,
                           const std::function<std::array<std::uint8_t, 4>(int, int)>& pixel) {
   Picture picture{width, height, {}};
@@ -25,8 +25,8 @@ inline Picture plain_picture(const std::array<std::uint8_t, 4>& pixel) {
   return picture_of(1, 1, [&](int, int) { return pixel; });
 }
 
-// The square has the corners (±1, ±1, 0). Its texture coordinates run from (0, 0) at the upper left
-// to (1, 1) at the lower right. Its material is white and unlit, without maps.
+// A square with the corners (±1, ±1, 0). Its texture coordinates are (0, 0) at the upper left and
+// (1, 1) at the lower right. Its material is white and unlit and has no maps.
 struct TexturedSquare {
   TriangleMesh mesh{.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
                     .faces = {{0, 1, 2}, {0, 2, 3}},
@@ -40,13 +40,13 @@ struct TexturedSquare {
 
   Material& material() { return texturing.materials[0]; }
 
-  // Gives the square a map of base colours, and returns it.
+  // Gives the square a base colour map with this picture. Returns the map.
   TextureMap& show(Picture picture) {
     pictures = {std::move(picture)};
     return material().base_colour_map.emplace();
   }
 
-  // Returns the square as a picture of `size` by `size` pixels, which it fills.
+  // Renders the square to a picture of `size` x `size` pixels, which the square fills.
   Picture seen(std::uint32_t size) const {
     const Textures textures(texturing, pictures);
     return render(

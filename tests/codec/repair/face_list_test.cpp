@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 constexpr TextureCoordinates kA{1, 2}, kB{3, 4}, kC{5, 6}, kD{7, 8}, kNone{0, 0};
 using CornerCoordinates = std::array<TextureCoordinates, 3>;
 
-// The corners of a square, and one point at which the polygon of the square can be dented.
+// The corners of a square. The last point serves to give the square a dent.
 const std::vector<Vec3> kPositions{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {3, 2, 0}};
 
 TEST(FaceList, PolygonsFollowTheTrianglesWithTheirMaterials) {
@@ -26,7 +26,7 @@ TEST(FaceList, PolygonsFollowTheTrianglesWithTheirMaterials) {
   faces.use_material(0);
   faces.use_material(7);
   faces.add(std::array{3u, 2u, 1u, 0u}, {});
-  EXPECT_EQ(faces.cut_polygons(kPositions), 0u);
+  faces.cut_polygons(kPositions);
   EXPECT_EQ(faces.triangles.size(), 6u);
   EXPECT_THAT(faces.take_materials(), ElementsAre(2, 5, 2, 2, 7, 7));
   EXPECT_THAT(faces.coordinates, IsEmpty());
@@ -51,7 +51,7 @@ TEST(FaceList, CoordinatesFollowTheCornersOfAFan) {
               ElementsAre(CornerCoordinates{kA, kB, kC}, CornerCoordinates{kA, kC, kD}));
 }
 
-// The polygon is concave, so ears are clipped. It visits vertex 0 twice, with different
+// The polygon is concave, so its ears are clipped. Vertex 0 occurs twice, with different texture
 // coordinates.
 TEST(FaceList, CoordinatesFollowTheCornersOfClippedEarsEvenIfAVertexRepeats) {
   const std::vector<Vec3> positions{{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}, {1, 3, 0}};

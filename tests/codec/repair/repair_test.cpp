@@ -28,8 +28,8 @@ using vitrine::testing::repaired;
 using vitrine::testing::tetrahedron;
 
 using Corners = std::array<std::array<double, 3>, 3>;
-// Returns the faces as positions, each rotated to start at its smallest corner, in sorted order. If
-// `unoriented` is true, a face and its reverse give the same result.
+// Returns the faces as triples of positions, in sorted order. Each face is rotated to start at its
+// smallest corner. If `unoriented` is true, a face and its reverse give the same result.
 std::vector<Corners> surface(const TriangleMesh& mesh, bool unoriented) {
   std::vector<Corners> faces;
   for (const Triangle& face : mesh.faces) {
@@ -81,7 +81,7 @@ TEST(Repair, ATouchingVertexIsSplitBetweenItsFans) {
 }
 
 TEST(Repair, SolidsThatTouchAtAnEdgePartAndStayClosed) {
-  TriangleMesh mesh = tetrahedron();  // its mirror image is added, which shares the edge 0-3
+  TriangleMesh mesh = tetrahedron();  // below, its mirror image is added; both share the edge 0-3
   mesh.positions.insert(mesh.positions.end(), {{-1, 0, 0}, {0, -1, 0}});
   mesh.faces.insert(mesh.faces.end(), {{0, 5, 4}, {0, 4, 3}, {4, 5, 3}, {5, 0, 3}});
   const auto result = repaired(mesh);
@@ -92,7 +92,7 @@ TEST(Repair, SolidsThatTouchAtAnEdgePartAndStayClosed) {
 }
 
 TEST(Repair, AThirdSheetAtAnEdgeKeepsAllItsFaces) {
-  TriangleMesh mesh = grid(2);  // a fin is added at the edge 4-5
+  TriangleMesh mesh = grid(2);  // below, a fin is added at the edge 4-5
   mesh.positions.push_back({1.5, 1, 1});
   mesh.faces.push_back({4, 5, 9});
   const auto result = repaired(mesh);
@@ -213,7 +213,8 @@ TEST(Repair, TheSampleScanNeedsNone) {
   EXPECT_THAT(result.repairs, IsEmpty());
 }
 
-// Returns the number of faces that repair must keep: all but degenerate ones and exact duplicates.
+// Returns the number of faces that repair must keep. Repair removes only degenerate faces and exact
+// duplicates.
 std::size_t expected_faces(const TriangleMesh& mesh) {
   std::set<Triangle> distinct;
   for (Triangle face : mesh.faces) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repairs a mesh and checks everything that repair() promises for any mesh.
+// Repairs a mesh and checks everything that repair() promises for every mesh.
 #pragma once
 
 #include <gtest/gtest.h>

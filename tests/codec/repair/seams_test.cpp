@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repairs files that repeat vertices without marking seams.
+// Repairs files that repeat vertices along seams but do not mark the seams.
 #include <algorithm>
 #include <random>
 
@@ -20,7 +20,7 @@ RepairedMesh built(std::string_view text) {
   return repaired(read_text(text));
 }
 
-// Tetrahedra whose upper and lower halves have separate vertices.
+// A tetrahedron as OBJ. Its two halves have separate vertices.
 constexpr char kHalves[] =
     "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n"
     "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n"
@@ -88,8 +88,8 @@ TEST(Seams, SidesOfEqualColoursAreWelded) {
                                                           Colour{255, 0, 0}, Colour{0, 0, 255}));
 }
 
-// A tetrahedron at the origin and its mirror image, each with its own vertices. In the second file,
-// the two touch along an edge.
+// A tetrahedron at the origin and its mirror image, as OBJ. Each has its own vertices. The two
+// touch in a point in the first file, along an edge in the second.
 constexpr char kTouchingAtAPoint[] =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n"
     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 6 7\nf 5 8 6\nf 6 8 7\nf 7 8 5\n";
@@ -151,7 +151,7 @@ TEST(Seams, EdgesThatArePointsAreNone) {
   EXPECT_THAT(result.repairs, IsEmpty());
 }
 
-// Repair must restore a grid from shuffled faces that each have their own vertices.
+// Each face of a grid gets its own vertices, and faces are shuffled. Repair must restore the grid.
 TEST(Seams, AnySoupOfTheFacesOfASurfaceIsThatSurface) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);

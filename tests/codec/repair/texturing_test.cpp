@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials and texture coordinates stay with the corners of their faces, from the reader to the
-// repaired mesh.
+// Tests that materials and texture coordinates stay with the corners of their faces, from the
+// reader to the repaired mesh.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using ::testing::IsEmpty;
 constexpr int kSide = 12;
 constexpr std::uint16_t kMaterials = 7;
 
-// A number that tells where a vertex is. Positions are whole numbers from 0 to 15.
+// Returns a number that identifies the position. Coordinates must be integers from 0 to 15.
 float code_of(const Vec3& p) {
   return static_cast<float>(p.x + 16 * p.y + 256 * p.z);
 }
@@ -32,9 +32,9 @@ Material mapped(std::uint8_t set) {
   return {.base_colour_map = TextureMap{.coordinates = set}};
 }
 
-// Builds random meshes that need every kind of repair. The first coordinate of each corner is the
-// code of its position. The second is the number of the face in set 0, and in set 1 that of the
-// vertex.
+// Builds random meshes that need every kind of repair. Texture coordinates identify their corner.
+// The first one is the code of the corner's position. The second one is the number of the face in
+// set 0, and the number of the vertex in set 1.
 class RandomMesh {
  public:
   explicit RandomMesh(std::uint32_t seed) : random_(seed) {}
@@ -59,7 +59,8 @@ class RandomMesh {
   int below(int n) { return static_cast<int>(random_() % static_cast<std::uint32_t>(n)); }
   bool chance(int n) { return below(n) == 0; }
 
-  // Returns a vertex at a place: an older one, or a copy as on the border of a chart.
+  // Returns a vertex at this position: an existing one, or a copy as on the border of a texture
+  // chart.
   std::uint32_t point(int x, int y, int z) {
     auto& there = vertices_[static_cast<std::size_t>(x + 16 * y + 256 * z)];
     if (!there.empty() && !chance(4))
@@ -72,7 +73,8 @@ class RandomMesh {
     return v;
   }
 
-  // Adds a unit square, as a polygon or as triangles, sometimes more than once or degenerate.
+  // Adds a unit square as a polygon or as triangles. Some faces are added twice, and some are
+  // degenerate.
   void add_cell(int x, int y) {
     std::vector<std::uint32_t> square{point(x, y, 0), point(x + 1, y, 0), point(x + 1, y + 1, 0),
                                       point(x, y + 1, 0)};
@@ -99,7 +101,7 @@ class RandomMesh {
   std::array<std::vector<std::uint32_t>, 1024> vertices_;
 };
 
-// Checks every face, using the numbers that RandomMesh has put into the coordinates.
+// Checks every face by the numbers that RandomMesh stored in the texture coordinates.
 void expect_corners_kept(const TriangleMesh& mesh, const Texturing& texturing) {
   ASSERT_EQ(texturing.face_materials.size(), mesh.faces.size());
   for (const auto& set : texturing.coordinates)

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 
 namespace vitrine {
@@ -11,7 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// Returns twice the sum of the triangles' areas in the plane z = 0. Expects that each area is
+// Returns twice the total area of the triangles in the plane z = 0. Expects that each area is
 // positive.
 double total_area(const std::vector<Vec3>& p, const std::vector<Triangle>& triangles) {
   double total = 0;
@@ -53,6 +54,14 @@ TEST(Triangulate, AConcavePolygonIsCoveredOnceAndKeepsItsDirection) {
 TEST(Triangulate, APolygonOfOnePointOrOneLineStillGivesAllItsTriangles) {
   EXPECT_EQ(cut({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}).size(), 3u);
   EXPECT_EQ(cut({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {2, 0, 0}}).size(), 2u);
+}
+
+// Readers report such a position once they know which faces use it.
+TEST(Triangulate, APolygonWithAPositionThatIsNotFiniteStillGivesAllItsTriangles) {
+  std::vector<Vec3> positions(300);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    positions[i] = {i % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1, 1, 1};
+  EXPECT_EQ(cut(positions).size(), 298u);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares keeps_near() with the distances between a bumpy sheet before and after each collapse.
+// Compares keeps_near() with measured distances between a bumpy sheet before and after each
+// collapse.
 #include "codec/simplify/closeness.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +15,9 @@
 namespace vitrine::test {
 namespace {
 
-constexpr double kReach = 12.3;  // lattice units; no distance has exactly this value
+constexpr double kReach = 12.3;  // lattice units; no distance in the tests is exactly this
 
-// Returns a sheet with bumps. `height` is their height in edge lengths.
+// Returns a sheet with bumps. `height` is the height of the bumps, in edge lengths.
 Surface bumpy_sheet(double height) {
   constexpr std::uint32_t kSide = 24;
   TriangleMesh sheet = test::sheet(kSide, kSide);
@@ -31,8 +32,8 @@ Surface bumpy_sheet(double height) {
   return surface;
 }
 
-// The faces around an edge, before or after its collapse. `edges` holds the midpoints of the edges
-// that leave the ends of that edge, and `faces` the centroids of the faces.
+// The faces around an edge, before or after its collapse. `edges` holds the midpoints of all edges
+// at the two ends. `faces` holds the centroids of the faces.
 struct EdgeFaces {
   TriangleMesh mesh;
   std::vector<Vec3> edges, faces;
@@ -113,7 +114,7 @@ TEST(Closeness, ComparesTheSurfacesBeforeAndAfter) {
   EXPECT_GT(count.far_middles, 10u);
 }
 
-// The bumps are about as high as the reach, so some patches fit into a slab and others do not.
+// The bumps are about as high as kReach. Some patches therefore fit into a slab, and others do not.
 TEST(Closeness, ComparesFlatSurfacesToo) {
   const DistanceCounts count = compare_all(bumpy_sheet(0.3));
   EXPECT_GT(count.near, 100u);

@@ -14,7 +14,7 @@
 namespace vitrine::test {
 namespace {
 
-// Returns the same mesh with its vertices and faces in a random order.
+// Returns the same mesh with its vertices and faces in random order.
 TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::uint32_t> name(mesh.positions.size());
@@ -32,8 +32,8 @@ TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed) {
   return out;
 }
 
-// Returns the faces of the mesh in sorted order: the corners of each face with their colours, from
-// the smallest corner on.
+// Returns the faces in sorted order. Each face consists of its corners' positions and colours,
+// starting at the smallest corner.
 std::vector<std::array<double, 12>> content(const TriangleMesh& mesh) {
   std::vector<std::array<double, 12>> faces;
   for (const Triangle& f : mesh.faces) {

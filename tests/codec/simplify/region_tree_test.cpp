@@ -20,7 +20,8 @@ std::vector<Vec3i> random_points(std::size_t count) {
   return points;
 }
 
-// Returns the leaf that contains a point. Descends the tree by its planes, as a decoder does.
+// Returns the leaf that contains a point. Follows the split planes down the tree, as a decoder
+// does.
 std::uint32_t leaf_of(const Vec3i& p, const RegionTree& tree) {
   std::uint32_t node = 0;
   while (tree.nodes[node].fork != 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simplifies a scan of a bust and checks the stated error.
+// Simplifies a scan of a bust and checks the stated errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,7 +87,7 @@ TEST(ErrorMeter, BoundIsTrueAndTightOnAScan) {
 
 TEST(Simplify, FollowsTheSurfaceAsItWasBeforeRounding) {
   const TriangleMesh scan = shipped_model("demosthenes.obj");
-  // edges are a few lattice steps long
+  // With 8 bits, edges are only a few lattice steps long.
   const LatticeMesh fine = quantise(scan, fit_lattice(scan.positions, 8));
   const auto half = static_cast<std::uint32_t>(fine.positions.size() / 2);
   const auto rms = [&](std::span<const Vec3> original) {
@@ -111,7 +111,7 @@ TEST(ErrorMeter, BoundIsTrueAndTightForMovedVerticesOfKnownOrigin) {
   }
 }
 
-// Returns the faces that have a corner in the region `which`.
+// Returns the faces that have a corner in region `which`.
 TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint16_t>& regions,
                      std::uint16_t which) {
   TriangleMesh part{.positions = mesh.positions, .faces = {}, .attributes = {}};

@@ -21,7 +21,7 @@
 namespace vitrine::test {
 namespace {
 
-// Performs the recorded collapses on plain lists of faces, without the code under test.
+// Performs the recorded collapses on plain lists of faces, independently of the code under test.
 class Replay {
  public:
   Replay(const LatticeMesh& fine, const Hierarchy& hierarchy)
@@ -32,7 +32,7 @@ class Replay {
     link();
   }
 
-  // Performs the collapses of a level. `level` counts from 1 (coarsest), as in Hierarchy.
+  // Performs the collapses of a level. Level 1 is the coarsest that has collapses, as in Hierarchy.
   void collapse_level(std::uint32_t level) {
     std::set<VertexId> ends;
     const Vec3i* last = nullptr;
@@ -50,8 +50,8 @@ class Replay {
     ASSERT_NO_FATAL_FAILURE(coarsen_lattice(level));
   }
 
-  // Expects that the level's mesh is a manifold once it is closed, and has the expected number of
-  // boundary loops.
+  // Expects that the level's closed mesh is a manifold and has the expected number of boundary
+  // loops.
   void check_manifold() const {
     std::map<VertexId, std::uint32_t> index;
     std::vector<Triangle> faces;
@@ -83,8 +83,8 @@ class Replay {
     }
   }
 
-  // Removes an inserted component. The record must contain the whole component in its present
-  // state.
+  // Removes a component that the level inserts. The record must contain the whole component in its
+  // current state.
   void take_out(const Component& component, std::uint32_t level) {
     const std::set<VertexId> ids(component.ids.begin(), component.ids.end());
     std::vector<Triangle> recorded, found;
@@ -109,8 +109,8 @@ class Replay {
     link();
   }
 
-  // Moves the vertices to a coarser lattice. For every remaining vertex, the record must hold the
-  // bits that are removed.
+  // Rounds the vertices to a coarser lattice. The record must hold the lost bits of every remaining
+  // vertex.
   void coarsen_lattice(std::uint32_t level) {
     const std::uint32_t bits = hierarchy_.shift[level - 1] - hierarchy_.shift[level];
     const auto& refined = hierarchy_.refined[level - 1];
@@ -168,8 +168,8 @@ class Replay {
     return merge(c.p1, c.p2, pyramid_term(opposite, others, parity));
   }
 
-  // Returns the third vertex of the face that has the directed edge, or a virtual vertex if there
-  // is no such face.
+  // Returns the third vertex of the face with the directed edge from -> to, or a virtual vertex if
+  // there is no such face.
   VertexId apex(VertexId from, VertexId to) const {
     for (std::size_t f : faces_at_[from]) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -199,7 +199,7 @@ class Replay {
   std::vector<Vec3i> positions_;
   std::vector<std::set<VertexId>> neighbours_;
   std::vector<std::vector<std::size_t>> faces_at_;
-  std::uint32_t loops_;  // number of boundary loops of the remaining components
+  std::uint32_t loops_;  // number of boundary loops of the components left
 };
 
 struct SimplifyCase {
@@ -307,7 +307,7 @@ TEST(Simplify, RimsKeepTheirPlace) {
   EXPECT_GE(middle_of(*high, shift).z, 4095 - tolerance);
 }
 
-// Returns the rms height of the vertices above the plane 3 z = x + y, in lattice units.
+// Returns the rms distance of the vertices from the plane 3 z = x + y, in lattice units.
 double off_plane(const LatticeMesh& mesh) {
   double sum = 0;
   for (const Vec3i& p : mesh.positions)
@@ -320,7 +320,7 @@ TEST(Simplify, TakesMidpointsThatRoundOntoTheSurface) {
   for (Vec3& p : plane.positions)
     p = {p.x * 7.3, p.y * 7.7, (p.x * 7.3 + p.y * 7.7) / 3};
   const LatticeMesh fine = quantise(plane, {.origin = {}, .step = 1, .bits = 12});
-  // 1,800 vertices take one level and 1,200 take two, so both parities are tested
+  // 1,800 vertices take one level and 1,200 take two, so both parities are tested.
   for (const std::uint32_t vertices : {1800u, 1200u}) {
     const auto hierarchy = simplify(fine, {.target_vertices = vertices}, plane.positions);
     EXPECT_LT(off_plane(hierarchy.value().base), 0.9 * off_plane(fine)) << vertices;
@@ -385,7 +385,7 @@ TEST(Simplify, TheHeapTakesTheCheapestPairFirst) {
 }
 
 TEST(Simplify, TheHeapLeavesWhatCarriesShapeToTheLast) {
-  // A flat sheet with one bump.
+  // A sheet that is flat except for one bump.
   TriangleMesh bumped = sheet(30, 30);
   for (Vec3& p : bumped.positions)
     p.z = 0;

@@ -31,8 +31,8 @@ TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
     EXPECT_LE(width(component.mesh.positions), width(hierarchy->base.positions));
 }
 
-// The torus of seven vertices, each adjacent to all others. No torus has fewer vertices. Like every
-// torus, it has two faces per vertex, the most that an inserted component may have.
+// The torus with seven vertices, each adjacent to all others, is the smallest torus. Like every
+// torus, it has two faces per vertex. An inserted component may not have more faces per vertex.
 TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
   LatticeMesh mesh = on_lattice(sheet(30, 30));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends requests whose end two parsers could see at different places, to the daemon directly and
-// through a real nginx. The daemon must see exactly one request for each request that nginx
-// forwards.
+// Tests requests whose end two parsers could see at different places. Sends them to the daemon
+// directly and through a real nginx. The daemon must see exactly one request for each request that
+// nginx forwards.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 struct Attack {
   const char* name;
-  std::string bytes;  // the request for "/NAME", mostly followed by one for "/hidden"
+  std::string bytes;  // the request for "/NAME", usually followed by one for "/hidden"
   bool refused;       // whether the daemon answers 400 and closes the connection
 };
 

@@ -41,7 +41,8 @@ std::string text_of(const PGresult* result) {
 }
 
 // Returns the PostgreSQL type of each value. The type 0 makes the server derive the type from the
-// statement. For values that the statement does not use, the server cannot do this; they are text.
+// statement. The server cannot derive the type of a value that the statement does not use. Such
+// values are sent as text.
 std::vector<Oid> types_of(const Said& said) {
   constexpr Oid kText = 25;
   std::vector<Oid> types;
@@ -77,7 +78,8 @@ std::string OldDaemon::say(const Said& said) const {
   for (const auto& value : said.values)
     values.push_back(value ? value->c_str() : nullptr);
   const std::vector<Oid> types = types_of(said);
-  // PostgreSQL allows no values with several statements at once, such as those that create tables.
+  // PQexecParams() accepts only one statement. Calls without values may contain several, such as
+  // those that create the tables.
   PGresult* const result =
       values.empty()
           ? PQexec(connection_.get(), said.sql.c_str())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes the code that reads an untrusted backup: the archive, and the checksums in the archive.
+// Fuzzes the code that reads an untrusted backup: the archive, and the checksums inside it.
 #include <sys/mman.h>
 #include <unistd.h>
 

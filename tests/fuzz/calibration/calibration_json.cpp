@@ -3,7 +3,7 @@
 
 #include "fuzz/checks.h"
 
-// An accepted calibration must be usable, and must stay the same when it is written and read again.
+// An accepted calibration must be usable. Writing and reading it again must not change it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto calibration = vitrine::acquisition::calibration_from_json(text, "input");

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the reader of the header, the planner and the refiner on hostile bytes, as `vitrine decode`
-// does. The hash of the header is corrected and all other hashes are ignored, so that mutated bytes
-// are not refused because of their hashes.
+// Runs the header's reader, the reader of the atlas, the planner and the refiner on hostile bytes,
+// as `vitrine decode` does. The hash of the header is corrected and all other hashes are ignored.
+// Otherwise mutated bytes would be refused because of their hashes.
+#include <optional>
+
 #include "../bounded.h"
 #include "../checks.h"
+#include "codec/coding/atlas_coder.h"
 #include "codec/plan/planner.h"
 #include "codec/refine/refiner.h"
+#include "decoding_bound.h"
 #include "raw_base.h"
 #include "support/sealed.h"
 
@@ -17,7 +21,18 @@ using fuzz::require;
 
 constexpr Limits kLimits = {.vertices = 20'000, .faces = 40'000};
 
-// Checks what the refiner guarantees for each state that it has accepted.
+// Checks that every corner of a face has a wedge of its vertex, if the model has a texture.
+void check_wedges(const Refiner& refiner) {
+  const Wedges& wedges = refiner.wedges();
+  if (wedges.empty()) return;
+  const Connectivity& mesh = refiner.connectivity();
+  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
+    if (!mesh.is_real(c / 3)) continue;
+    require(wedges.of(c) < wedges.size() && wedges[wedges.of(c)].vertex == mesh.vertex(c));
+  }
+}
+
+// Checks the guarantees of the refiner, after each chunk that it has accepted.
 void check(const Refiner& refiner) {
   const LatticeMesh mesh = refiner.lattice_mesh();
   require(mesh.positions.size() == refiner.vertex_count());
@@ -28,9 +43,23 @@ void check(const Refiner& refiner) {
   require(shown.positions.size() >= refiner.vertex_count());
   require(shown.faces.size() == refiner.face_count());
   require(shown.attributes.fit(shown.positions.size()));
+  check_wedges(refiner);
 }
 
-// Checks that the planner terminates for requests of several kinds, and names no chunk twice.
+// Reads the base mesh, and the atlas if the model has a texture. Returns nullopt if the atlas is
+// damaged.
+std::optional<BaseMesh> read_base(std::span<const std::uint8_t> bytes, const Manifest& manifest) {
+  BaseMesh base =
+      fuzz::read_raw_base(part(bytes, manifest.base_offset, manifest.base_length), manifest);
+  const TextureInfo& texture = manifest.texture;
+  if (texture.empty()) return base;
+  auto atlas = decode_atlas(part(bytes, texture.atlas_offset, texture.atlas_length), base);
+  if (!atlas) return std::nullopt;
+  base.atlas = std::move(*atlas);
+  return base;
+}
+
+// Checks that the planner terminates for several kinds of requests and plans no chunk twice.
 void plan(const Manifest& manifest) {
   const std::uint32_t level = static_cast<std::uint32_t>(manifest.levels.size()) / 2;
   for (const Want& want :
@@ -47,7 +76,8 @@ void plan(const Manifest& manifest) {
   }
 }
 
-// Returns a camera so close to a corner of the model that a part of the model is out of sight.
+// Returns a view from a camera so close to a corner of the model that a part of the model is out of
+// sight.
 View close_up(const Lattice& lattice) {
   const double side = lattice.step * (1 << lattice.bits);
   const Vec3 eye = lattice.origin + Vec3{0.2, 0.2, 1.3} * side;
@@ -73,8 +103,9 @@ bool apply(Refiner& refiner, Planner& planner, std::span<const std::uint8_t> byt
 void decode(std::span<const std::uint8_t> bytes) {
   const auto manifest = parse_header(bytes, kLimits);
   if (!manifest) return;
-  const auto base_bytes = part(bytes, manifest->base_offset, manifest->base_length);
-  auto refiner = Refiner::start(*manifest, fuzz::read_raw_base(base_bytes, *manifest));
+  const auto base = read_base(bytes, *manifest);
+  if (!base) return;
+  auto refiner = Refiner::start(*manifest, *base);
   if (!refiner) return;
   check(*refiner);
   plan(*manifest);
@@ -92,6 +123,6 @@ void decode(std::span<const std::uint8_t> bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = vitrine::test::sealed({data, size});
-  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] { vitrine::decode(file); });
+  vitrine::fuzz::bounded(vitrine::fuzz::decoding_bound(file), size, [&] { vitrine::decode(file); });
   return 0;
 }

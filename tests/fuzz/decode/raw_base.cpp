@@ -48,7 +48,7 @@ BaseMesh read_raw_base(std::span<const std::uint8_t> bytes, const Manifest& mani
 
 std::vector<std::uint8_t> with_raw_base(std::span<const std::uint8_t> pmesh, Manifest manifest,
                                         const BaseMesh& base) {
-  const auto chunks = pmesh.subspan(manifest.head_bytes());
+  const auto behind_base = pmesh.subspan(manifest.base_offset + manifest.base_length);
   ByteWriter raw;
   write_triples(raw, base.positions);
   for (const Triangle& f : base.faces)
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> with_raw_base(std::span<const std::uint8_t> pmesh, Man
   ByteWriter out;
   out.bytes(write_header(manifest));
   out.bytes(raw.take());
-  out.bytes(chunks);
+  out.bytes(behind_base);
   return out.take();
 }
 

@@ -16,8 +16,8 @@ namespace vitrine::fuzz {
 // attribute value is three 32-bit integers. The result is incomplete if bytes are missing.
 BaseMesh read_raw_base(std::span<const std::uint8_t> bytes, const Manifest& manifest);
 
-// Returns the file `pmesh` with its base mesh replaced by `base` in raw form. Both must be valid,
-// and `manifest` must be that of the file.
+// Returns the file `pmesh`, with `base` in raw form as its base mesh. Both must be valid, and
+// `manifest` must be the manifest of the file.
 std::vector<std::uint8_t> with_raw_base(std::span<const std::uint8_t> pmesh, Manifest manifest,
                                         const BaseMesh& base);
 

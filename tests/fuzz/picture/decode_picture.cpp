@@ -8,7 +8,7 @@
 namespace {
 
 constexpr std::uint64_t kPixels = 1 << 16;
-// Four bytes per pixel, plus the message of an error.
+// Memory bound: four bytes per pixel, plus the message of an error.
 constexpr vitrine::test::HeapBound kHeap{.always = 4 * kPixels + 512, .per_byte = 0};
 
 void check(const vitrine::Picture& picture) {

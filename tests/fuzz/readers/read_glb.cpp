@@ -4,9 +4,9 @@
 
 namespace {
 
-// Returns the memory bound for a file. A file that may contain compressed data or pictures gets a
-// larger bound, because decoding needs memory. This includes files with a backslash, because a JSON
-// escape may hide the words "compression" and "image".
+// Returns the memory bound for a file. The bound is larger for files that may contain compressed
+// data or pictures, because decoding them needs memory. It is also larger for files with a
+// backslash, because a JSON escape may hide the words "compression" and "image".
 vitrine::test::HeapBound heap_for(std::string_view glb) {
   for (const char* word : {"compression", "image", "\\"}) {
     if (glb.find(word) != glb.npos) return vitrine::test::kReadingCompressedHeap;
@@ -16,13 +16,13 @@ vitrine::test::HeapBound heap_for(std::string_view glb) {
 
 }  // namespace
 
-// Reads the input through read_mesh(), which accepts every format and links Draco. The other
-// readers' fuzzers call their reader directly, because they do not replace Draco.
+// Reads the input through read_mesh(), which accepts every format and needs Draco. The fuzzers of
+// formats without Draco call their readers directly.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto heap = heap_for({reinterpret_cast<const char*>(data), size});
   return vitrine::fuzz::check({data, size}, heap, [](std::span<const std::uint8_t> bytes) {
-    // A WebP may have far more pixels than bytes, so the bound of the memory needs one of the
-    // pixels.
+    // A WebP may have far more pixels than bytes. So the memory is only bounded if the number of
+    // pixels is limited.
     const vitrine::Limits limits{.pixels = 1024 * (bytes.size() + 1)};
     return vitrine::read_mesh(bytes, {.limits = limits, .up = vitrine::UpAxis::kZ});
   });

@@ -4,7 +4,7 @@
 #include "fuzz/readers/reader.h"
 
 // Reads the input as a glTF file. The file can refer to the buffer "b", which is the input itself,
-// and to the picture "p". Reads it through read_mesh(), as the fuzzer of GLB does.
+// and to the picture "p". Uses read_mesh(), like the fuzzer of GLB.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return vitrine::fuzz::check(
       {data, size}, vitrine::test::kReadingCompressedHeap,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of the readers' fuzzers. For any bytes, a reader must return a mesh that can be repaired,
-// or an error of one line.
+// Checks that the fuzzers of all readers use. For any bytes, a reader must return a mesh that can
+// be repaired, or an error of one line.
 #pragma once
 
 #include <cmath>
@@ -53,7 +53,7 @@ inline void check_repaired(ImportedMesh imported) {
   require(Connectivity::close(count, mesh.faces).has_value());
 }
 
-// Finishes the mesh of a text format. Checks that a unit stated in a comment is a known one.
+// Completes the mesh of a text format. Checks that a unit stated in a comment is a known unit.
 inline Expected<ImportedMesh> finished(std::span<const std::uint8_t> bytes, Expected<RawMesh> raw) {
   const std::string_view unit = unit_in_comments(bytes);
   require(unit.empty() || metres_per(unit));
@@ -61,8 +61,8 @@ inline Expected<ImportedMesh> finished(std::span<const std::uint8_t> bytes, Expe
   return std::move(*raw).finish({});
 }
 
-// Calls `read`, which converts the bytes to an ImportedMesh, and checks the memory that it uses and
-// the mesh or error that it returns. Ignores inputs of more than 64 KiB.
+// Calls `read`, which converts the bytes to an ImportedMesh. Checks the memory that `read` uses,
+// and the mesh or error that it returns. Ignores inputs of more than 64 KiB.
 template <class Read>
 int check(std::span<const std::uint8_t> bytes, const test::HeapBound& heap, Read&& read) {
   if (bytes.size() > 1 << 16) return 0;

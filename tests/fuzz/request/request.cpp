@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes arbitrary bytes of a client through all code that reads a request before its handler runs.
-// Reads the bytes once as a whole and once in two pieces. Both must give the same request, or both
-// must give none.
+// Passes arbitrary bytes of a client through all code that reads a request before the request's
+// handler runs. Reads the bytes once as a whole and once in two pieces. Both must give the same
+// request, or both must give none.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -37,8 +37,8 @@ struct Read {
   std::size_t size = 0;  // bytes of the request
 };
 
-// Passes `text` to the parser as a connection does: its first `piece` bytes, then the rest. Returns
-// nullopt if `text` does not begin with a complete request that the daemon accepts.
+// Passes `text` to the parser as a connection would: the first `piece` bytes, then the rest.
+// Returns nullopt if `text` does not begin with a complete request that the daemon accepts.
 std::optional<Read> read(std::string_view text, std::size_t piece) {
   Parser parser;
   parser.header_limit(16 * 1024);
@@ -60,7 +60,7 @@ std::optional<Read> read(std::string_view text, std::size_t piece) {
   return Read{{target.data(), target.size()}, parser.get().base(), parser.get().body(), used};
 }
 
-// Returns the public routes without their handlers.
+// Returns the routes of the public interface, without their handlers.
 std::vector<Route> public_paths() {
   std::vector<Route> routes;
   for (const ApiRoute& route : public_routes())

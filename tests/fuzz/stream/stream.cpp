@@ -17,7 +17,7 @@ using namespace vitrine;
 using namespace vitrine::server;
 
 constexpr std::uint32_t kChunk = 40'000;
-constexpr std::size_t kMostSteps = 64;  // maximum number of outputs taken after each message
+constexpr std::size_t kMostSteps = 64;  // maximum number of outputs to take after each message
 
 void check(bool holds) {
   if (!holds) std::abort();
@@ -41,8 +41,8 @@ Manifest small_manifest() {
   return manifest;
 }
 
-// Takes the outputs that are ready, at most kMostSteps. Each slice must lie within the file and
-// must not exceed the client's credit.
+// Takes at most kMostSteps of the ready outputs. Each slice must lie within the file and must not
+// exceed the client's credit.
 void pull(StreamState& state, const Manifest& manifest, Pacer::Time now) {
   for (std::size_t step = 0; step < kMostSteps; ++step) {
     const std::uint64_t credit = state.credit();

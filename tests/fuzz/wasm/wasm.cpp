@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the browser's model on hostile bytes, through the calls that a page makes. The seeds are
-// those of the decode fuzzer, with a raw base mesh instead of a Draco buffer, because in a browser
-// the base mesh arrives already decoded. The hash of the header is corrected, and other hashes are
-// ignored. The last bytes of the input also determine a detail request.
+// Runs the browser's model class on hostile bytes, with the calls that a page makes. The seeds are
+// those of the decode fuzzer. Their base mesh is raw instead of a Draco buffer, so that most
+// mutations reach the layers; the base fuzzer reads such buffers. The hash of the header is
+// corrected, and other hashes are ignored. The last bytes of the input also determine a detail
+// request.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "../bounded.h"
 #include "../checks.h"
+#include "../decode/decoding_bound.h"
 #include "../decode/raw_base.h"
 #include "codec/wasm/browser_model.h"
 #include "support/sealed.h"
@@ -19,7 +21,8 @@ namespace {
 using fuzz::part;
 using fuzz::require;
 
-constexpr std::uint32_t kLevel = 3;  // the kind of BrowserModel::want() that requests a level
+// Value of the argument `kind` by which BrowserModel::want() requests a level.
+constexpr std::uint32_t kLevel = 3;
 
 template <class T>
 T last_bytes(std::span<const std::uint8_t> bytes) {
@@ -41,6 +44,8 @@ Counts hand_out(BrowserModel& model) {
     out.vertices += count;
     require(model.positions().size() == count && model.normals().size() == count);
     require(model.attributes().fit(count));
+    for (const auto& at : model.coordinates())
+      require(std::ranges::all_of(at, [](float x) { return std::isfinite(x); }));
     for (const auto& p : model.positions())
       require(std::ranges::all_of(p, [](float x) { return std::isfinite(x); }));
   }
@@ -54,12 +59,13 @@ Counts hand_out(BrowserModel& model) {
 
 void expect_whole_surface(BrowserModel& model) {
   const Counts out = hand_out(model);
-  require(out.vertices == model.refiner().vertex_count());
+  require(out.vertices == model.displayed_vertices());
+  require(out.vertices >= model.refiner().vertex_count());
   require(out.faces == model.refiner().face_count());
 }
 
 // Applies the chunks that the detail request needs. Returns false if the model refuses a chunk as
-// damaged; it must then refuse all chunks until the next detail request.
+// damaged. The model must then refuse all chunks until the next detail request.
 bool fetch(BrowserModel& model, std::span<const std::uint8_t> bytes) {
   for (int next = model.next_chunk(); next >= 0; next = model.next_chunk()) {
     const auto chunk = static_cast<std::size_t>(next);
@@ -78,10 +84,15 @@ void visit(std::span<const std::uint8_t> bytes) {
   if (!opened) return;
   BrowserModel* const model = opened->get();
   const Manifest& manifest = model->manifest();
-  require(model->summary().size() == 11 + 5 * manifest.levels.size() + 4 * manifest.chunks.size());
+  const TextureInfo& texture = manifest.texture;
+  const std::size_t for_texture = texture.empty() ? 0 : 8 + 4 * texture.pictures.size();
+  require(model->summary().size() ==
+          11 + 5 * manifest.levels.size() + 4 * manifest.chunks.size() + for_texture);
   require(!model->check_chunk(manifest.chunks.size(), {}));
+  require(!model->check_picture(texture.pictures.size(), {}));
   const auto base = part(bytes, manifest.base_offset, manifest.base_length);
-  if (!model->start(fuzz::read_raw_base(base, manifest))) return;
+  const auto atlas = part(bytes, texture.atlas_offset, texture.atlas_length);
+  if (!model->start(fuzz::read_raw_base(base, manifest), atlas)) return;
   expect_whole_surface(*model);
   const auto kind = last_bytes<std::uint8_t>(bytes) % kLevel;
   for (const auto& [how, much] :
@@ -101,6 +112,6 @@ void visit(std::span<const std::uint8_t> bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = vitrine::test::sealed({data, size});
-  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] { vitrine::visit(file); });
+  vitrine::fuzz::bounded(vitrine::fuzz::decoding_bound(file), size, [&] { vitrine::visit(file); });
   return 0;
 }

@@ -140,7 +140,7 @@ TEST_F(AuthoriseTest, EveryCallThatIsToChangeSomethingIsAudited) {
   const HttpAnswer done = client.get("/operator/rig-1", field, "POST");
   const HttpAnswer low = client.get("/admin", field, "DELETE");
   const HttpAnswer nobody = client.get("/admin", "", "DELETE");
-  client.get("/viewer", field);  // once this is answered, the log holds the earlier requests
+  client.get("/viewer", field);  // once this request is answered, the log holds the earlier ones
   client.get("/viewer", field);
   const std::string id = token.id.to_string(), log = server_.events();
   EXPECT_THAT(log, HasSubstr("event=audit id=" + done.field("x-request-id") +

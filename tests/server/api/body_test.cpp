@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Request bodies over a real connection: size limits, deadlines, and where the next request starts.
+// Tests request bodies over a real connection: size limits, deadlines, and where the next request
+// starts.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drafts: who sees them, how a model becomes a draft, and how a draft is published.
+// Tests drafts: who sees them, how a model becomes a draft, and how a draft is published.
 #include <gtest/gtest.h>
 
 #include <algorithm>

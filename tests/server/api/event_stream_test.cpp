@@ -29,7 +29,8 @@ class Countdown final : public Source {
   std::optional<Event> next() override {
     pause_ = !pause_;
     if (pause_ || left_ == 0) return std::nullopt;
-    return Event{"job", std::to_string(--left_)};
+    --left_;
+    return Event{.name = "job", .data = std::to_string(left_), .id = "e" + std::to_string(left_)};
   }
   bool ended() const override { return left_ == 0; }
 
@@ -46,7 +47,9 @@ class Silence final : public Source {
 
 class Flood final : public Source {
  public:
-  std::optional<Event> next() override { return Event{"job", std::string(8 << 20, 'x')}; }
+  std::optional<Event> next() override {
+    return Event{.name = "job", .data = std::string(8 << 20, 'x'), .id = "1"};
+  }
   bool ended() const override { return false; }
 };
 
@@ -100,7 +103,8 @@ TEST_F(EventStream, SendsWhatTheSourceGivesAndEndsWithIt) {
   EXPECT_EQ(head.field("content-length"), "");
   EXPECT_EQ(head.field("connection"), "close");
   const std::string wanted =
-      "event: job\ndata: 2\n\nevent: job\ndata: 1\n\nevent: job\ndata: 0\n\n";
+      "event: job\nid: e2\ndata: 2\n\nevent: job\nid: e1\ndata: 1\n\n"
+      "event: job\nid: e0\ndata: 0\n\n";
   EXPECT_EQ(client.read_exactly(wanted.size()), wanted);
   EXPECT_TRUE(client.is_closed());
   EXPECT_TRUE(released.try_acquire_for(std::chrono::seconds(20)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A daemon forwards the requests for a scanner to the daemon that drives it.
+// Tests that a daemon forwards the requests for a scanner to the daemon that drives it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -93,7 +93,7 @@ TEST_F(PassedOn, NoProxyOfTheEnvironmentIsAsked) {
   EXPECT_EQ(answer.status, 200) << answer.body;
 }
 
-// Neither daemon answers before both have been asked.
+// Neither daemon answers until both have been asked, so the requests must be concurrent.
 TEST_F(PassedOn, ListsAskAllDaemonsAtOnce) {
   test::WebhookListener left, right;
   for (const auto& [name, daemon] : {std::pair("left", &left), std::pair("right", &right)})
@@ -167,7 +167,7 @@ TEST_F(PassedOn, AListOfScansTellsWhatTheirDriverTells) {
   const auto id = ScanId::parse(json::parse(begun.body)["id"].get<std::string>()).value();
   const ScanEntry unknown{.id = id, .job = JobId::generate(), .scanner = "rig", .title = "Behind"};
   const JobRecord running{.id = unknown.job, .state = JobState::kRunning, .scanner = "rig"};
-  // the outdated entry in the front daemon's own catalogue
+  // The front daemon's own catalogue has an outdated entry for the scan.
   ASSERT_TRUE(front_.jobs().add(running, unknown, {}));
   const auto list = json::parse(ask("GET", "/scans", operator_).body)["scans"];
   ASSERT_EQ(list.size(), 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods that a path supports, and the requests that pages of other origins may send.
+// Tests the methods that a path supports, and the requests that pages of other origins may send.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -104,6 +104,31 @@ TEST_F(MethodsTest, PagesOfOtherOriginsMayReadWhatIsPublicAndDoNothingElse) {
       EXPECT_FALSE(name.starts_with("access-control") || name.starts_with("cross-origin")) << name;
   }
   EXPECT_EQ(closed[0].field("allow"), "GET, HEAD, DELETE, OPTIONS");
+}
+
+TEST(TrustedOrigin, MaySendTokensAndReadEveryResponse) {
+  HttpOptions options;
+  options.trusts_origin = [](auto origin) { return origin == "https://museum.example"; };
+  LocalServer server(kMethodRoutes, std::chrono::seconds(30), {}, std::move(options));
+  const auto call = [&](const std::string& method, const std::string& origin,
+                        const std::string& more = "") {
+    return test::http_get(server.port(), "/private", "Origin: " + origin + "\r\n" + more, method);
+  };
+  const std::string wanted = "Access-Control-Request-Headers: authorization,upload-offset\r\n";
+  const HttpAnswer preflight = call("OPTIONS", "https://museum.example", wanted);
+  EXPECT_EQ(preflight.status, 204);
+  EXPECT_EQ(preflight.field("access-control-allow-origin"), "https://museum.example");
+  EXPECT_EQ(preflight.field("access-control-allow-headers"), "authorization,upload-offset");
+  EXPECT_THAT(preflight.field("access-control-allow-methods"), testing::HasSubstr("DELETE"));
+  const std::string who = server.bearer(Role::kOperator);
+  const HttpAnswer answer = call("DELETE", "https://museum.example", who);
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.field("access-control-allow-origin"), "https://museum.example");
+  EXPECT_EQ(answer.field("vary"), "Origin");
+  for (const char* other : {"https://museum.example.evil", "http://museum.example", "null"}) {
+    EXPECT_EQ(call("OPTIONS", other, wanted).field("access-control-allow-origin"), "") << other;
+    EXPECT_EQ(call("DELETE", other, who).field("access-control-allow-origin"), "") << other;
+  }
 }
 
 }  // namespace

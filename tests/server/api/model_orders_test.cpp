@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests that make models from uploads, and that change, limit, replace and delete models.
+// Tests requests that make models from uploads, and that change, limit, replace and delete models.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 #include "codec/export/write_mesh.h"
 #include "codec/format/manifest.h"
 #include "server/api/routes.h"
+#include "server/store/text.h"
 #include "support/local_server.h"
 #include "support/meshes.h"
 #include "support/process/http_client.h"
@@ -26,7 +27,7 @@ using test::LocalServer;
 using testing::HasSubstr;
 
 std::string ply_of(const TriangleMesh& mesh) {
-  const auto bytes = write_mesh(mesh, MeshFormat::kPly, "mm").value();
+  const auto bytes = write_mesh(mesh, MeshFormat::kPly, {.unit = "mm"}).value();
   return {bytes.begin(), bytes.end()};
 }
 
@@ -107,11 +108,13 @@ TEST_F(ModelOrders, AMeshThatWasUploadedBecomesAModel) {
   EXPECT_EQ(shown["faces"], 1'600);
   EXPECT_EQ(shown["state"], "published");
   EXPECT_TRUE(server_.uploads().list().value().empty());
+  const JobRecord job = server_.jobs().jobs({}).value().at(0);
+  EXPECT_TRUE(TokenId::parse(job.owner)) << "the token of the upload shares the builders";
 }
 
 TEST_F(ModelOrders, AnUploadThatAJobOfAnotherDaemonNeedsStays) {
   const std::string id = upload("no mesh");
-  const JobRecord job = PublishJobs::job_for({.upload = UploadId::parse(id).value()});
+  const JobRecord job = PublishJobs::job_for({.upload = UploadId::parse(id).value()}, TokenId());
   ASSERT_TRUE(server_.jobs().add(job, {}, {}));
   auto held = server_.jobs().claim(job.id, {"another daemon", std::chrono::minutes(1)}).value();
   ASSERT_TRUE(held);
@@ -127,7 +130,8 @@ TEST_F(ModelOrders, AnUploadThatAJobOfAnotherDaemonNeedsStays) {
 TEST_F(ModelOrders, AnUploadIsUsedOrTakenAwayWhoeverComesFirst) {
   for (int round = 0; round < 20; ++round) {
     const std::string id = upload("no mesh");
-    // Set once both requests are answered. A job that ends earlier would no longer need the upload.
+    // Blocks the jobs until the test has received both responses. If the job ended earlier, it
+    // would no longer need the upload.
     std::promise<void> both;
     server_.scans().jobs().executor("").post([all = both.get_future().share()] { all.wait(); });
     auto made = std::async(std::launch::async, [&] {
@@ -252,8 +256,18 @@ TEST_F(ModelOrders, TextsAreChangedWhereTheModelIsTheOneThatWasRead) {
   EXPECT_EQ(model(id)["title"], "Ring");
   EXPECT_EQ(ask("PATCH", path, operator_, {{"metadata", {{"title", "Nested"}}}}).status, 200);
   EXPECT_EQ(model(id)["title"], "Nested");
+  EXPECT_EQ(ask("PATCH", path, operator_, {{"creator", "Someone"}}).status, 200);
+  const auto without = ask("PATCH", path, operator_, {{"creator", nullptr}, {"unit", nullptr}});
+  EXPECT_EQ(nlohmann::json::parse(without.body).at("creator"), "");
   EXPECT_EQ(fault_of(ask("PATCH", path, operator_, {{"faces", 3}})), "faces");
   EXPECT_EQ(fault_of(ask("PATCH", path, operator_, {{"title", "two\nlines"}})), "title");
+  const auto parts = ask("PATCH", path, operator_, {{"description", "One.\r\n\r\nTwo."}});
+  EXPECT_EQ(parts.status, 200) << parts.body;
+  EXPECT_EQ(model(id)["description"], "One.\n\nTwo.");
+  const std::string most(kMaxParagraphBytes, 'x');
+  EXPECT_EQ(ask("PATCH", path, operator_, {{"rights", most}}).status, 200);
+  EXPECT_EQ(fault_of(ask("PATCH", path, operator_, {{"rights", most + 'x'}})), "rights");
+  EXPECT_EQ(fault_of(ask("PATCH", path, operator_, {{"description", "a\tb"}})), "description");
   EXPECT_EQ(ask("PATCH", path, server_.bearer(Role::kViewer), {{"title", "x"}}).status, 403);
   EXPECT_EQ(ask("PATCH", path, "", {{"title", "x"}}).status, 401);
 }
@@ -296,9 +310,9 @@ TEST_F(ModelOrders, AFaultOfTheFileIsNotOneOfTheKey) {
       .seekp(-9, std::ios::end)
       .write("damaged", 7);
   const HttpAnswer answer = ask("PATCH", "/models/" + id, operator_, {{"unit", "in"}});
-  EXPECT_EQ(answer.status, 422) << answer.body;
+  EXPECT_EQ(answer.status, 409) << answer.body;
   EXPECT_FALSE(json::parse(answer.body).contains("errors"));
-  EXPECT_THAT(answer.body, HasSubstr("SHA-256"));
+  EXPECT_THAT(answer.body, HasSubstr(hex + " is damaged; publish it again"));
 }
 
 TEST_F(ModelOrders, WhatIsPublicOfAModelHasToFitIntoTheQuota) {
@@ -404,6 +418,23 @@ TEST_F(ModelOrders, VisitorsSeeNoMoreThanThePublicLevel) {
   EXPECT_GT(json::parse(ask("GET", path + "/manifest", "").body)["levels"].size(), 2u);
 }
 
+TEST_F(ModelOrders, PostersAreMadeWhenVisitorsSeeAnotherFile) {
+  constexpr std::uint64_t kWidths = 3;
+  server_.services().exports.set_capacity(10'000'000);
+  const std::string id = publish(ply_of(test::torus(80, 60)), {{"publish", false}});
+  const std::string path = "/models/" + id;
+  const auto& made = server_.services().exports.made;
+  EXPECT_EQ(made, 0u);
+  EXPECT_EQ(ask("POST", path + "/publish", operator_).status, 200);
+  EXPECT_EQ(made, kWidths);
+  EXPECT_EQ(ask("PATCH", path, operator_, {{"title", "Ring"}}).status, 200);
+  EXPECT_EQ(made, kWidths);
+  EXPECT_EQ(ask("PATCH", path, operator_, {{"public_max_level", 1}}).status, 200);
+  EXPECT_EQ(made, 2 * kWidths);
+  EXPECT_EQ(ask("GET", path + "/poster.png", "").status, 200);
+  EXPECT_EQ(made, 2 * kWidths) << "no visitor waits";
+}
+
 TEST_F(ModelOrders, AModelThatIsDeletedIsGoneWithItsBytes) {
   const std::string id = publish(mesh_), path = "/models/" + id;
   const std::string kept = publish(ply_of(test::torus(30, 20)));
@@ -418,7 +449,7 @@ TEST_F(ModelOrders, AModelThatIsDeletedIsGoneWithItsBytes) {
 
 TEST_F(ModelOrders, ACollectionLeavesWhatAJobWillNeed) {
   const std::string waits = upload(mesh_);
-  JobRecord job = PublishJobs::job_for({.upload = *UploadId::parse(waits)});
+  JobRecord job = PublishJobs::job_for({.upload = *UploadId::parse(waits)}, TokenId());
   ASSERT_TRUE(server_.jobs().add(job, std::nullopt, std::nullopt));
   const auto late = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(server_.collector().collect(late).value().uploads, 0u);

@@ -2,10 +2,13 @@
 // Tests the server under more load than it can accept.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <mutex>
 #include <semaphore>
 
 #include "server/api/routes.h"
 #include "server/messages/body_sink.h"
+#include "server/messages/problem.h"
 #include "support/fake_backend.h"
 #include "support/local_server.h"
 #include "support/process/http_client.h"
@@ -21,8 +24,23 @@ Response wait_for_the_test(const Request&, Services&) {
   return {};
 }
 
+std::mutex turns_mutex;
+std::vector<std::string> turns;  // the clients' addresses, in the order of their turns
+
+Response note_the_turn(const Request& request, Services& services) {
+  {
+    const std::scoped_lock lock(turns_mutex);
+    turns.emplace_back(request.client_address);
+  }
+  return wait_for_the_test(request, services);
+}
+
 Response at_once(const Request&, Services&) {
   return {};
+}
+
+Response not_there(const Request& request, Services&) {
+  return problem(404, "", request.id);
 }
 
 // Accepts any body. At the end of the body, waits until the test releases it.
@@ -67,6 +85,10 @@ constexpr ApiRoute kCrowdedRoutes[] = {
      .path = "/slow",
      .handler = wait_for_the_test,
      .executor = Executor::kCompute},
+    {.method = Method::kGet,
+     .path = "/turn",
+     .handler = note_the_turn,
+     .executor = Executor::kCompute},
     {.method = Method::kPost,
      .path = "/work",
      .handler = wait_for_the_test,
@@ -86,10 +108,19 @@ constexpr ApiRoute kCrowdedRoutes[] = {
      .reads_body = false},
     {.method = Method::kGet, .path = "/quick", .handler = at_once, .executor = Executor::kInline},
     {.method = Method::kPost, .path = "/quick", .handler = at_once, .executor = Executor::kWorker},
+    {.method = Method::kPost,
+     .path = "/locked",
+     .handler = at_once,
+     .executor = Executor::kWorker,
+     .role = Role::kOperator},
+    {.method = Method::kGet,
+     .path = "/missing",
+     .handler = not_there,
+     .executor = Executor::kInline},
 };
 
 TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
-  const test::LocalServer server(kCrowdedRoutes);  // admits one export at a time
+  const test::LocalServer server(kCrowdedRoutes);  // the server admits one export at a time
   test::HttpClient first(server.port());
   first.send("GET /slow HTTP/1.1\r\nHost: a\r\n\r\n");
   entered.acquire();
@@ -120,6 +151,37 @@ TEST(Overload, OneAddressHasAQuarterOfTheSeatsForExports) {
   EXPECT_EQ(first.receive().status, 200);
   EXPECT_EQ(other.receive().status, 200);
   entered.acquire();
+}
+
+TEST(Overload, AClientWithManyExportsDelaysThoseOfAnotherByOneOnly) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.proxies = Networks::parse("127.0.0.1").value()}, nullptr, 64);
+  std::vector<std::unique_ptr<test::HttpClient>> clients;
+  const auto ask = [&](const std::string& query, const std::string& address) {
+    clients.push_back(std::make_unique<test::HttpClient>(server.port()));
+    clients.back()->send("GET /turn?" + query +
+                         " HTTP/1.1\r\nHost: a\r\nX-Forwarded-For: " + address + "\r\n\r\n");
+  };
+  while (entered.try_acquire()) {  // discards what earlier tests have left
+  }
+  for (int i = 0; i < 8; ++i)
+    ask(std::to_string(i), "192.0.2.1");
+  // Waits until two exports run, the most that may run at a time.
+  entered.acquire(), entered.acquire();
+  ask("other", "192.0.2.2");
+  // The thread that serves all connections has read the other request before this one.
+  EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200);
+  may_end.release();
+  entered.acquire();
+  {
+    const std::scoped_lock lock(turns_mutex);
+    EXPECT_EQ(turns.back(), "192.0.2.2");
+  }
+  may_end.release(8);
+  for (const auto& client : clients)
+    EXPECT_EQ(client->receive().status, 200);
+  for (int i = 0; i < 6; ++i)
+    entered.acquire();
 }
 
 TEST(Overload, AnAnswerThatNeverFitsIsSaidToBeTooLarge) {
@@ -162,8 +224,9 @@ TEST(Overload, CallsThatWaitForDevicesOrTheDiskLeaveTheWorkersToOthers) {
 TEST(Overload, WhatChangesModelsOrUploadsWaitsForTheDiskApart) {
   for (const ApiRoute& route : public_routes()) {
     const bool writes = route.method != Method::kGet && route.method != Method::kOptions;
-    const bool stores =
-        route.path.starts_with("/api/v1/models") || route.path.starts_with("/api/v1/uploads");
+    const bool is_counted_in_memory = route.path.ends_with("/visits");
+    const bool stores = !is_counted_in_memory && (route.path.starts_with("/api/v1/models") ||
+                                                  route.path.starts_with("/api/v1/uploads"));
     if (writes && stores) {
       EXPECT_EQ(route.executor, Executor::kDisk) << route.path;
     }
@@ -196,6 +259,51 @@ TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
     }
     first->read_exactly(kLarge);
   }
+}
+
+// Each of these requests gets an error without access to the disk. A different part of the server
+// detects each error.
+TEST(Overload, ErrorsAndOptionsCountTowardsTheRateAndOtherAnswersFromMemoryDoNot) {
+  for (const std::string request :
+       {"GET /nothing HTTP/1.1\r\nHost: a\r\n\r\n", "PUT /quick HTTP/1.1\r\nHost: a\r\n\r\n",
+        "OPTIONS /quick HTTP/1.1\r\nHost: a\r\n\r\n", "GET nothing HTTP/1.1\r\nHost: a\r\n\r\n",
+        "GET /quick HTTP/1.1\r\n\r\n", "?\r\n\r\n", "GET /missing HTTP/1.1\r\nHost: a\r\n\r\n"}) {
+    const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                   {.request_rate = 1});
+    const auto ask = [&] {
+      test::HttpClient client(server.port());
+      client.send(request);
+      return client.receive();
+    };
+    int answered = 0;
+    test::HttpAnswer answer = ask();
+    for (; answer.status != 429 && answered < 1000; answer = ask())
+      ++answered;
+    EXPECT_GE(answered, 10) << request;
+    EXPECT_EQ(answer.status, 429) << request;
+    EXPECT_EQ(answer.field("retry-after"), "1") << request;
+    EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200) << request;
+  }
+}
+
+TEST(Overload, RefusedChangesAreAuditedByTheRationAndOthersAlways) {
+  constexpr int kCalls = 2000;
+  test::LocalServer server(kCrowdedRoutes);
+  test::HttpClient client(server.port());
+  for (int i = 0; i < kCalls; ++i)
+    EXPECT_EQ(client.get("/locked", "Content-Length: 0\r\n", "POST").status, 401);
+  const std::string who = server.bearer(Role::kOperator) + "Content-Length: 0\r\n";
+  EXPECT_EQ(client.get("/locked", who, "POST").status, 200);
+  EXPECT_EQ(client.get("/quick", "Content-Length: 0\r\n", "POST").status, 200);
+  EXPECT_EQ(client.get("/quick").status, 200);
+  const std::string lines = server.events();
+  const auto audited = std::ranges::count(lines, '\n') - 1;
+  EXPECT_GE(audited, 100);
+  EXPECT_LT(audited, kCalls / 2);
+  EXPECT_EQ(server.metrics().refusals_not_logged.load(),
+            kCalls - static_cast<std::uint64_t>(audited));
+  EXPECT_NE(lines.find("target=/locked status=200\n"), std::string::npos);
+  EXPECT_EQ(lines.find("target=/quick"), std::string::npos) << "everybody may do this";
 }
 
 TEST(Overload, AnEmergencyStopGetsThroughHoweverOftenItsCallerHasCalled) {

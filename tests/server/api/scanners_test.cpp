@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several scanners driven by one daemon.
+// Tests a daemon that drives several scanners.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -49,6 +49,37 @@ TEST(ScannersOfADaemon, EachIsCommandedByItsName) {
   hold.open();
   server.scans().jobs().executor("left").run([] {});
   EXPECT_EQ(left.steps, 12);
+}
+
+TEST(ScannersOfADaemon, TellTheStateOfLaserAndMotorAndGoDarkWithTheTokenThatLitThem) {
+  test::FakeScanner rig;
+  std::vector<std::unique_ptr<ScannerBackend>> one;
+  one.push_back(std::make_unique<test::FakeBackend>(rig));
+  test::LocalServer server(public_routes(), std::chrono::seconds(30), std::move(one));
+  ASSERT_TRUE(server.scans().start());
+  const std::string who = server.bearer(Role::kOperator);
+  const auto ask = [&](const std::string& request, const std::string& body = "") {
+    test::HttpClient client(server.port());
+    client.send(request + " HTTP/1.1\r\nHost: a\r\n" + who +
+                "Content-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
+    return json::parse(client.receive().body);
+  };
+  const json before = ask("GET /api/v1/scanners/rig");
+  EXPECT_EQ(before["laser"]["state"], "off");
+  EXPECT_EQ(before["motor"]["state"], "off");
+  const json lit = ask("POST /api/v1/scanners/rig/laser", R"({"on": true})");
+  EXPECT_EQ(lit["laser"]["state"], "on");
+  EXPECT_NE(lit["laser"]["since"], nullptr);
+  EXPECT_EQ(ask("GET /api/v1/scanners")["scanners"][0]["laser"], lit["laser"]);
+
+  const auto tokens = server.catalogue().tokens();
+  ASSERT_TRUE(tokens && tokens->size() == 1);
+  ASSERT_TRUE(server.catalogue().revoke_token(tokens->front().id));
+  server.services().tokens.forget();
+  server.scans().scanner("rig")->watch_manual_laser();
+  server.scans().jobs().executor("rig").run([] {});
+  EXPECT_FALSE(rig.laser);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scanners, calibrations, scans and jobs over HTTP. The scanner has no devices (fake_backend.h).
+// Tests scanners, calibrations, scans and jobs over HTTP. The scanner has no devices
+// (fake_backend.h).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -87,8 +88,12 @@ class ScanRoutes : public testing::Test {
 TEST_F(ScanRoutes, ScannersAreListedAndShownWithTheirDevices) {
   const json listed = json::parse(get("/scanners").body);
   ASSERT_EQ(listed["scanners"].size(), 1u);
-  const json shown = json::parse(get("/scanners/rig").body);
+  json shown = json::parse(get("/scanners/rig").body);
   EXPECT_EQ(listed["scanners"][0], shown);
+  EXPECT_EQ(shown["laser"]["state"], "off");
+  EXPECT_EQ(shown["motor"]["state"], "off");
+  shown.erase("laser");
+  shown.erase("motor");
   EXPECT_EQ(shown, json::parse(R"({"id":"rig","name":"rig","state":"idle",
     "camera":{"vendor":"Acme","model":"C1","serial":"42"},
     "board":{"dialect":"horus","firmware":"fake 1.0"},
@@ -404,7 +409,7 @@ TEST_F(ScanRoutes, EventsTellAJobToItsEnd) {
   std::string state;
   while (state != "done") {
     const std::string event = next_event(client);
-    ASSERT_TRUE(event.starts_with("event: job\ndata: ")) << event;
+    ASSERT_TRUE(event.starts_with("event: job\nid: ")) << event;
     const json job = json::parse(event.substr(event.find('{')));
     if (state.empty()) {
       EXPECT_EQ(job["state"], "running");
@@ -487,6 +492,18 @@ TEST_F(ScanRoutes, AModelOfHalfAnObjectIsPublicWhereThatIsSaidAnew) {
   EXPECT_EQ(post(scan_path(started) + "/reprocess", {{"publish", true}}).status, 202);
   settle("");
   EXPECT_TRUE(world_.rebuilt.is_public);
+}
+
+TEST_F(ScanRoutes, ACancelledScanIsHidden) {
+  HeldAtStep held(world_, 3);
+  const json started = begin({{"publish", true}});
+  held.await();
+  EXPECT_EQ(ask("GET", scan_path(started) + "/points", "").status, 200);
+  EXPECT_EQ(ask("DELETE", job_path(started), operator_).status, 202);
+  held.open();
+  settle();
+  for (const char* part : {"", "/points", "/profile"})
+    EXPECT_EQ(ask("GET", scan_path(started) + part, "").status, 401) << part;
 }
 
 TEST_F(ScanRoutes, WhatIsNoIdIsNotFoundWhateverTheMethod) {

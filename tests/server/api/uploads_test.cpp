@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resumable uploads according to the protocol tus 1.0.0.
+// Tests resumable uploads according to the protocol tus 1.0.0.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
 
 #include "server/api/routes.h"
 #include "support/local_server.h"
@@ -15,6 +17,7 @@ using test::HttpAnswer;
 using test::HttpClient;
 using test::LocalServer;
 using testing::HasSubstr;
+using Json = nlohmann::json;
 
 class UploadRoutes : public testing::Test {
  protected:
@@ -127,7 +130,7 @@ TEST_F(UploadRoutes, ACallWhosePeerHasGoneIsAuditedAndCounted) {
     EXPECT_EQ(head(path).status, 200);  // the server still answers other requests
     told = server_.events();
   }
-  head(path);  // once this is answered, the metrics count the aborted requests
+  head(path);  // once this request is answered, the metrics count the aborted ones
   EXPECT_THAT(server_.metrics().text(),
               HasSubstr(R"(route="/api/v1/models/{id}/publish",status="4xx"} 1)"));
 }
@@ -153,6 +156,48 @@ TEST_F(UploadRoutes, APieceAtAnotherOffsetIsAConflict) {
           .status,
       400);
   EXPECT_EQ(head(path).field("upload-offset"), "3");
+}
+
+TEST_F(UploadRoutes, AClientFindsItsLostUploadAndEndsIt) {
+  const std::string other = server_.bearer(Role::kOperator), admin = server_.bearer(Role::kAdmin);
+  const auto list = [&](const std::string& who, const std::string& query = "") {
+    return Json::parse(ask("GET", "/api/v1/uploads" + query, who).body);
+  };
+  EXPECT_EQ(list(who_), Json::parse(R"({"uploads": [], "next": null})"));
+  std::string lost = create(10, "Upload-Metadata: filename YS5vYmo=\r\n").field("location");
+  lost = lost.substr(lost.rfind('/') + 1);
+  EXPECT_EQ(patch("/api/v1/uploads/" + lost, 0, "abc").status, 204);
+  created(20);
+  ASSERT_EQ(ask("POST", "/api/v1/uploads", other + kTus + "Upload-Length: 5\r\n").status, 201);
+
+  const Json own = list(who_);
+  ASSERT_EQ(own["uploads"].size(), 2u);
+  const Json& found = own["uploads"][own["uploads"][0]["id"] == lost ? 0 : 1];
+  EXPECT_EQ(found["id"], lost);
+  EXPECT_EQ(found["offset"], 3);
+  EXPECT_EQ(found["length"], 10);
+  EXPECT_EQ(found["metadata"], "filename YS5vYmo=");
+  EXPECT_EQ(list(other)["uploads"].size(), 1u);
+  EXPECT_EQ(list(admin)["uploads"].size(), 3u);
+  const Json first = list(admin, "?limit=2");
+  EXPECT_EQ(first["uploads"].size(), 2u);
+  EXPECT_EQ(list(admin, "?cursor=" + first["next"].get<std::string>())["uploads"].size(), 1u);
+  EXPECT_EQ(ask("GET", "/api/v1/uploads", server_.bearer(Role::kViewer)).status, 403);
+  EXPECT_EQ(ask("GET", "/api/v1/uploads", "").status, 401);
+
+  EXPECT_EQ(ask("DELETE", "/api/v1/uploads/" + lost, other + kTus).status, 404);
+  EXPECT_EQ(ask("DELETE", "/api/v1/uploads/" + lost, who_ + kTus).status, 204);
+  EXPECT_EQ(list(who_)["uploads"].size(), 1u);
+}
+
+TEST(ShortAddresses, StandInTheAuditLogIfTheOperatorWishes) {
+  LocalServer server(public_routes(), std::chrono::seconds(2), {}, {.shortens_addresses = true});
+  HttpClient client(server.port());
+  client.send("POST /api/v1/uploads HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
+  EXPECT_EQ(client.receive().status, 401);
+  client.get("/api/v1/uploads");  // once this is answered, the first call is logged
+  EXPECT_THAT(server.events(), HasSubstr(" remote=127.0.0.0/24 "));
+  EXPECT_THAT(server.events(), testing::Not(HasSubstr("127.0.0.1")));
 }
 
 TEST_F(UploadRoutes, AnotherVersionOrTypeIsRefused) {
@@ -191,6 +236,23 @@ TEST_F(UploadRoutes, WhatIsAnnouncedCountsForTheQuota) {
   EXPECT_EQ(ask("POST", "/api/v1/uploads", other).status, 201);
 }
 
+TEST_F(UploadRoutes, ACreationWhosePieceIsRefusedLeavesNoUpload) {
+  const auto creation = [&](const std::string& fields, const std::string& piece) {
+    return ask("POST", "/api/v1/uploads", who_ + kTus + kPiece + "Upload-Length: 3\r\n" + fields,
+               piece)
+        .status;
+  };
+  EXPECT_EQ(creation("", "abcdef"), 413);
+  EXPECT_EQ(creation("Upload-Checksum: sha1\r\n", "abc"), 400);
+  EXPECT_EQ(creation("Upload-Checksum: sha1 qZk+NkcGgWq6PiVxeFDCbJzQ2J0=\r\n", "xyz"), 460);
+  HttpClient client(server_.port());  // sends more bytes than announced, in chunks
+  client.send("POST /api/v1/uploads HTTP/1.1\r\nHost: a\r\n" + who_ + kTus + kPiece +
+              "Upload-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\n6\r\nabcdef\r\n0\r\n\r\n");
+  EXPECT_EQ(client.receive().status, 413);
+  EXPECT_TRUE(server_.uploads().list().value().empty());
+  EXPECT_EQ(creation("Upload-Checksum: sha1 qZk+NkcGgWq6PiVxeFDCbJzQ2J0=\r\n", "abc"), 201);
+}
+
 TEST_F(UploadRoutes, AnUploadIsItsTokensAlone) {
   const std::string path = created(5);
   EXPECT_EQ(ask("HEAD", path, kTus).status, 401);
@@ -207,6 +269,59 @@ TEST_F(UploadRoutes, TheFirstPieceMayComeWithTheCreation) {
   EXPECT_EQ(made.field("upload-offset"), "3");
   EXPECT_EQ(patch(made.field("location"), 3, "def").status, 204);
   EXPECT_EQ(stored(made.field("location")), "abcdef");
+}
+
+TEST_F(UploadRoutes, BytesWithAnotherChecksumAreTakenBack) {
+  const std::string path = created(6), sha1_of_abc = "sha1 qZk+NkcGgWq6PiVxeFDCbJzQ2J0=";
+  EXPECT_EQ(patch(path, 0, "abc", "Upload-Checksum: " + sha1_of_abc + "\r\n").status, 204);
+  EXPECT_EQ(patch(path, 3, "xyz", "Upload-Checksum: " + sha1_of_abc + "\r\n").status, 460);
+  EXPECT_EQ(head(path).field("upload-offset"), "3");
+  for (const char* malformed : {"sha1", "sha1 abc", "crc32 qZk+NkcGgWq6PiVxeFDCbJzQ2J0="})
+    EXPECT_EQ(patch(path, 3, "abc", std::string("Upload-Checksum: ") + malformed + "\r\n").status,
+              400);
+  const std::string md5_of_def = "md5 TtlAdjDrEADA9rY4Qt76fQ==";
+  EXPECT_EQ(patch(path, 3, "def", "Upload-Checksum: md5 TtlAdjDrEADA9rY4Qt76fA==\r\n").status, 460);
+  EXPECT_EQ(patch(path, 3, "def", "Upload-Checksum: " + md5_of_def + "\r\n").status, 204);
+  EXPECT_EQ(stored(path), "abcdef");
+}
+
+TEST_F(UploadRoutes, TheLengthMayBeStatedLaterAndOnce) {
+  const HttpAnswer made =
+      ask("POST", "/api/v1/uploads", who_ + kTus + "Upload-Defer-Length: 1\r\n");
+  ASSERT_EQ(made.status, 201) << made.body;
+  const std::string path = made.field("location");
+  EXPECT_EQ(head(path).field("upload-defer-length"), "1");
+  EXPECT_EQ(head(path).field("upload-length"), "");
+  EXPECT_EQ(patch(path, 0, "abc").status, 204);
+  EXPECT_EQ(patch(path, 3, "", "Upload-Length: 2\r\n").status, 413);
+  EXPECT_EQ(patch(path, 3, "", "Upload-Length: 9999999\r\n").status, 413);
+  EXPECT_EQ(stored(path), "not whole");
+  EXPECT_EQ(patch(path, 3, "def", "Upload-Length: 6\r\n").status, 204);
+  EXPECT_EQ(patch(path, 6, "", "Upload-Length: 7\r\n").status, 409);
+  EXPECT_EQ(head(path).field("upload-length"), "6");
+  EXPECT_EQ(stored(path), "abcdef");
+  EXPECT_EQ(create(6, "Upload-Defer-Length: 1\r\n").status, 400);
+}
+
+TEST_F(UploadRoutes, AClientThatCanOnlyPostNamesItsMethod) {
+  const std::string path = created(3);
+  const std::string patch = "X-HTTP-Method-Override: PATCH\r\n";
+  EXPECT_EQ(ask("POST", path, who_ + kTus + kPiece + at(0) + patch, "abc").status, 204);
+  EXPECT_EQ(stored(path), "abc");
+  EXPECT_EQ(ask("POST", path, who_ + kTus + "X-HTTP-Method-Override: DELETE\r\n").status, 204);
+  EXPECT_EQ(head(path).status, 404);
+  EXPECT_EQ(ask("POST", path, who_ + kTus + "X-HTTP-Method-Override: GET\r\n").status, 405);
+}
+
+TEST_F(UploadRoutes, AListLinksToItsNextPage) {
+  for (int i = 0; i < 3; ++i)
+    ASSERT_EQ(create(1).status, 201);
+  const HttpAnswer first = ask("GET", "/api/v1/uploads?limit=2", who_);
+  const std::string next = Json::parse(first.body).at("next");
+  EXPECT_EQ(first.field("link"), "</api/v1/uploads?limit=2&cursor=" + next + ">; rel=\"next\"");
+  const HttpAnswer last = ask("GET", "/api/v1/uploads?limit=2&cursor=" + next, who_);
+  EXPECT_EQ(Json::parse(last.body).at("uploads").size(), 1u);
+  EXPECT_EQ(last.field("link"), "");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Attacks on the daemon. Each attacker is answered or cut off, other clients are served meanwhile,
-// and the log contains no errors.
+// Tests attacks on the daemon. The daemon must answer or cut off each attacker, serve other clients
+// meanwhile, and log no errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -134,7 +134,7 @@ TEST_F(AttackTest, WhoTakesAStreamAByteAtATimeCostsLittleAndIsCutOff) {
 TEST_F(AttackTest, HalfOpenConnectionsCostLittleAndGo) {
   constexpr std::size_t kConnections = 400;
 #ifdef VITRINE_SANITISED
-  constexpr std::size_t kBytesEach = 100'000;  // includes the sanitizer's records
+  constexpr std::size_t kBytesEach = 100'000;  // includes memory that the sanitizer needs
 #else
   constexpr std::size_t kBytesEach = 20'000;
 #endif
@@ -214,6 +214,20 @@ TEST_F(AttackTest, GuessingTokensIsSlowedDownWhileTheirOwnersGetOn) {
   EXPECT_EQ(answer.status, 429);
   EXPECT_NE(answer.field("retry-after"), "");
   EXPECT_EQ(client.get("/api/v1/jobs", own).status, 200);
+}
+
+// Requests that cost the attacker little and are answered from memory.
+TEST_F(AttackTest, PipelinedUnknownPathsFillNoLog) {
+  constexpr int kRequests = 2'000;
+  constexpr std::size_t kTarget = 4'000;
+  const std::string request =
+      "GET /" + std::string(kTarget, '\xe9') + " HTTP/1.1\r\nHost: a\r\n\r\n";
+  HttpClient client(daemon.port());
+  for (int i = 0; i < kRequests; ++i) {
+    client.send(request);
+    EXPECT_EQ(client.receive().status, 404);
+  }
+  EXPECT_LT(daemon.access_log().size(), kRequests * 550u);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small uploads that claim, or expand to, far more data than any memory holds. The job must fail
-// and say why, and the daemon must not be affected.
+// Tests small uploads that claim, or expand to, far more data than fits into memory. The job must
+// fail and say why, and the daemon must not be affected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Connections that take too long, and more connections than the daemon has room for.
+// Tests connections that take too long, and more connections than the daemon has room for.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -47,7 +47,7 @@ TEST_F(CutOffTest, ABodyThatNobodyTakes) {
 
 TEST_F(CutOffTest, AnAnswerThatNobodyTakes) {
   HttpClient client(daemon.port());
-  std::string requests;  // the answers are far larger than the sockets' buffers
+  std::string requests;  // their answers are far larger than the sockets' buffers
   for (int i = 0; i < 2000; ++i) {
     requests += "GET /api/v1/models/" + id + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n";
   }

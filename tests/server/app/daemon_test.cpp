@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests every route of the real daemon over sockets.
+// Tests every route of the real daemon over sockets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "server/store/change.h"
 #include "support/process/daemon.h"
 #include "support/process/http_client.h"
 #include "support/product_names.h"
@@ -85,7 +89,8 @@ TEST_F(DaemonTest, ServesHeadChunkAndFile) {
   EXPECT_EQ(head.body, file_bytes(0, manifest.head_bytes()));
   const HttpAnswer chunk = get(chunk_url());
   EXPECT_EQ(chunk.body, file_bytes(manifest.chunks[0].offset, manifest.chunks[0].length));
-  EXPECT_EQ(chunk.field("cache-control"), "public, max-age=31536000, immutable");
+  EXPECT_EQ(chunk.field("cache-control"),
+            "public, max-age=31536000, immutable, s-maxage=120, stale-while-revalidate=60");
   EXPECT_EQ(chunk.field("access-control-allow-origin"), "*");
   EXPECT_EQ(get("/api/v1/chunks/" + to_hex(manifest.base_sha256)).body, "a base mesh");
   EXPECT_EQ(get(model_url() + "/file.pmesh").body, file_bytes(0, manifest.file_bytes));
@@ -186,8 +191,8 @@ TEST_F(DaemonTest, TheAdminListenerTellsHealthAndMetricsAndVisitorsCannotReachTh
   EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200);
   EXPECT_EQ(http_get(daemon.admin_port(), "/readyz").status, 200);
   HttpClient client(daemon.port());
-  // A request is counted after its answer is sent, but before the next request on the same
-  // connection.
+  // The daemon counts a request after it sends the answer, but before it reads the next request on
+  // the same connection.
   for (const std::string& target : {chunk_url(), std::string("/api/v1/models/nothing")}) {
     client.send("GET " + target + " HTTP/1.1\r\nHost: a\r\n\r\n");
     client.receive();
@@ -213,7 +218,8 @@ TEST_F(DaemonTest, MetricsTellWhatTheOperatorAsksAndDoNotGrowWithWhatVisitorsAsk
        {"\nvitrine_build_info{version=\"", "\nvitrine_streams 0\n",
         "\nvitrine_exports_made_total 0\n", "\nvitrine_export_cache_bytes 0\n",
         "\nvitrine_jobs{state=\"queued\"} 0\n", "\nvitrine_jobs{state=\"cancelled\"} 0\n",
-        "\nvitrine_data_free_bytes "}) {
+        "\nvitrine_data_free_bytes ", "\nvitrine_disk_nearly_full 0\n",
+        "\nvitrine_refusals_not_logged_total 0\n"}) {
     EXPECT_THAT(text, HasSubstr(sample));
   }
   const auto before = lines();
@@ -242,6 +248,117 @@ TEST_F(DaemonTest, EveryReadIsAnEntity) {
     EXPECT_EQ(get(target, "Range: bytes=1-4\r\nIf-Range: \"other\"\r\n").status, 200) << target;
     EXPECT_EQ(get(target, "Range: bytes=0-1,3-4\r\n").body, whole.body) << target;
   }
+}
+
+// A folder with one model, whose file is damaged before the daemon starts.
+class DamagedObjectTest : public ::testing::Test {
+ protected:
+  DamagedObjectTest() {
+    std::fstream(folder.path() / "objects" / hex.substr(0, 2) / hex.substr(2, 2) / hex,
+                 std::ios::in | std::ios::out | std::ios::binary)
+        .seekp(-1, std::ios::end)
+        .put('!');
+  }
+  static std::string metrics_of(const Daemon& daemon) {
+    return http_get(daemon.admin_port(), "/metrics").body;
+  }
+
+  ServedFolder folder;
+  const std::string model = "/api/v1/models/" + folder.publish("A small bust");
+  const std::string hex = to_hex(sha256(served_pmesh().bytes));
+};
+
+TEST_F(DamagedObjectTest, IsNeverSentAndIsServedAgainOnceItIsMended) {
+  const ChunkInfo& chunk = served_pmesh().manifest.chunks[0];
+  const std::string chunk_url = "/api/v1/chunks/" + to_hex(chunk.sha256);
+  Daemon daemon(folder.path(), {"--scrub-rate", "0"});
+  for (const std::string& target : {chunk_url, model + "/head", model + "/file.pmesh",
+                                    model + "/manifest", model + "/export.ply"}) {
+    const HttpAnswer answer = http_get(daemon.port(), target);
+    EXPECT_EQ(answer.status, 500) << target;
+    EXPECT_EQ(answer.field("cache-control"), "no-store") << target;
+    EXPECT_THAT(daemon.wait_for_line("event=error"), HasSubstr(hex)) << target;
+  }
+  EXPECT_THAT(metrics_of(daemon), HasSubstr("\nvitrine_damaged_objects 1\n"));
+  folder.publish("A small bust");  // publishing the same file again replaces the damaged one
+  const HttpAnswer mended = http_get(daemon.port(), chunk_url);
+  EXPECT_EQ(mended.status, 200);
+  EXPECT_EQ(mended.body, file_bytes(chunk.offset, chunk.length));
+  EXPECT_THAT(metrics_of(daemon), HasSubstr("\nvitrine_damaged_objects 0\n"));
+}
+
+TEST_F(DamagedObjectTest, IsFoundInTheBackgroundThoughNobodyAsksForIt) {
+  Daemon daemon(folder.path());
+  EXPECT_THAT(daemon.wait_for_line("event=error"), HasSubstr("object " + hex));
+  EXPECT_THAT(metrics_of(daemon), HasSubstr("\nvitrine_damaged_objects 1\n"));
+}
+
+std::size_t count_open_objects(pid_t process) {
+  std::size_t count = 0;
+  const std::filesystem::path open = "/proc/" + std::to_string(process) + "/fd";
+  for (const auto& file : std::filesystem::directory_iterator(open)) {
+    std::error_code closed_meanwhile;
+    const auto target = std::filesystem::read_symlink(file, closed_meanwhile).string();
+    count += target.find("/objects/") != target.npos ? 1 : 0;
+  }
+  return count;
+}
+
+// Nobody sends a request after the changes.
+TEST(CachedFiles, OfModelsThatWereWithdrawnReplacedOrRemovedAreClosed) {
+  ServedFolder folder;
+  std::vector<std::string> ids;
+  for (const char* chunk : {"one", "two", "three"})
+    ids.push_back(folder.publish(chunk, tiny_pmesh("a base", chunk)));
+  Daemon daemon(folder.path(), {"--scrub-rate", "0"});
+  for (const std::string& id : ids)
+    EXPECT_EQ(http_get(daemon.port(), "/api/v1/models/" + id + "/file.pmesh").status, 200);
+  WebSocketClient stream(daemon.port(), "/api/v1/models/" + ids[0] + "/stream", "pmesh.v1");
+  EXPECT_EQ(stream.receive().kind, WebSocketFrame::kText);
+  EXPECT_EQ(count_open_objects(daemon.pid()), 3u);
+  const auto other = open_installation({.folder = folder.path()}).value();
+  const auto id_of = [&](std::size_t i) { return *ModelId::parse(ids[i]); };
+  ASSERT_TRUE(other.catalogue->set_state(id_of(0), ModelState::kDraft));
+  ASSERT_TRUE(replace(*other.store, *other.catalogue, tiny_pmesh("a base", "four").bytes, {},
+                      {.id = id_of(1)}));
+  ASSERT_TRUE(other.catalogue->remove(id_of(2), std::nullopt));
+  while (count_open_objects(daemon.pid()) > 0)
+    std::this_thread::yield();
+}
+
+TEST(Disk, ThatIsNearlyFullIsReportedAndTakesNoUpload) {
+  ServedFolder folder;
+  const std::string create =
+      "Authorization: Bearer " + folder.token(Role::kOperator) +
+      "\r\nTus-Resumable: 1.0.0\r\nUpload-Length: 1\r\nContent-Length: 0\r\n";
+  for (const std::string reserve : {"0", "9000000000000000000"}) {
+    const bool is_full = reserve != "0";
+    Daemon daemon(folder.path(), {"--disk-reserve", reserve});
+    const HttpAnswer ready = http_get(daemon.admin_port(), "/readyz");
+    EXPECT_EQ(ready.status, 200) << "models can still be served";
+    EXPECT_THAT(ready.body, HasSubstr(is_full ? "nearly full" : "ready\n"));
+    EXPECT_THAT(
+        http_get(daemon.admin_port(), "/metrics").body,
+        HasSubstr(is_full ? "\nvitrine_disk_nearly_full 1\n" : "\nvitrine_disk_nearly_full 0\n"));
+    const HttpAnswer upload = http_get(daemon.port(), "/api/v1/uploads", create, "POST");
+    EXPECT_EQ(upload.status, is_full ? 507 : 201) << upload.body;
+    if (is_full) daemon.wait_for_line("no room");
+  }
+}
+
+TEST(Disk, HasNoRoomForWhatOtherOpenUploadsWillNeed) {
+  ServedFolder folder;
+  Daemon daemon(folder.path(), {"--disk-reserve", "0", "--max-upload", "9000000000000000000"});
+  const std::uintmax_t most = std::filesystem::space(folder.path()).available * 6 / 10;
+  const std::string create = "Authorization: Bearer " + folder.token(Role::kOperator) +
+                             "\r\nTus-Resumable: 1.0.0\r\nUpload-Length: " + std::to_string(most) +
+                             "\r\nContent-Length: 0\r\n";
+  const auto announce = [&] {
+    return http_get(daemon.port(), "/api/v1/uploads", create, "POST").status;
+  };
+  EXPECT_EQ(announce(), 201);
+  EXPECT_EQ(announce(), 507);
+  daemon.wait_for_line("no room");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the real daemon describes a model to other software: posters, IIIF, oEmbed and link previews.
+// Tests how the real daemon describes a model to other software: posters, IIIF, oEmbed and link
+// previews.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -106,6 +107,28 @@ TEST_F(InterchangeTest, AnIiifManifestShowsThePosterAndOffersTheModel) {
   const Json& model = manifest["rendering"][0];
   EXPECT_EQ(model["type"], "Model");
   EXPECT_THAT(get(model["id"].get<std::string>().substr(origin.size())).body, StartsWith("glTF"));
+}
+
+TEST_F(InterchangeTest, ASceneOfIiifFourShowsTheModel) {
+  const std::string target = "/api/v1/iiif/4/" + id + "/manifest.json";
+  const HttpAnswer answer = get(target);
+  EXPECT_THAT(answer.field("content-type"), HasSubstr("presentation/4/context.json"));
+  const Json manifest = Json::parse(answer.body);
+  EXPECT_EQ(manifest["id"], origin + target);
+  const Json& scene = manifest["items"][0];
+  EXPECT_EQ(scene["type"], "Scene");
+  const Json& painted = scene["items"][0]["items"][0];
+  EXPECT_EQ(painted["target"]["id"], scene["id"]);
+  EXPECT_EQ(painted["body"]["type"], "Model");
+  EXPECT_THAT(get(painted["body"]["id"].get<std::string>().substr(origin.size())).body,
+              StartsWith("glTF"));
+}
+
+TEST_F(InterchangeTest, ACollectionListsTheManifestsOfPublishedModels) {
+  const Json collection = json("/api/v1/iiif/collection.json");
+  EXPECT_EQ(collection["type"], "Collection");
+  ASSERT_EQ(collection["items"].size(), 1u);
+  EXPECT_EQ(collection["items"][0]["id"], json("/api/v1/iiif/" + id + "/manifest.json")["id"]);
 }
 
 TEST_F(InterchangeTest, TheShortAddressOfAManifestLeadsToIt) {

@@ -31,6 +31,7 @@ struct Told {
   std::vector<JobRecord> jobs, untold;
   std::vector<ScanEntry> scans;
   std::optional<JobId> once;
+  std::uint64_t visits = 0;
 
   bool operator==(const Told&) const = default;
 };
@@ -53,13 +54,18 @@ Told told_by(Installation& installation) {
   told.untold = installation.jobs->unnotified_jobs().value();
   told.scans = installation.jobs->scans({}).value();
   if (const auto earlier = installation.jobs->find_key("a key").value()) told.once = earlier->job;
+  const std::chrono::sys_days day{};
+  const auto visits = installation.visits->by_day({day, day}, 10).value();
+  for (const DayVisits& row : visits)
+    told.visits += row.of.counts.visits;
   return told;
 }
 
 class Migrate : public testing::Test {
  protected:
   void fill() {
-    publish_at(folder_, "vase");
+    const ModelId vase = publish_at(folder_, "vase");
+    ASSERT_TRUE(folder_.visits->add({{{vase, {}}, {.visits = 5}}}));
     publish_at(folder_, "bowl");
     const JobRecord told{.id = JobId::generate(), .state = JobState::kDone, .webhook = "http://a/"};
     const JobRecord untold{
@@ -88,6 +94,7 @@ TEST_F(Migrate, AnInstallationIsTheSameAfterMovingThereAndBack) {
   ASSERT_TRUE(moved) << moved.error().message;
   EXPECT_EQ(moved->models, 2u);
   EXPECT_EQ(moved->files, 2u);
+  EXPECT_EQ(told_by(remote_).visits, 5u);
   EXPECT_EQ(told_by(remote_), told_by(folder_));
   Installation back = open_installation({.folder = root_.path() / "b"}).value();
   ASSERT_TRUE(migrate(remote_, back, nobody_looks));

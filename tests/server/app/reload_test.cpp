@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the real daemon reloads its configuration.
+// Tests how the real daemon reloads its configuration.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,13 +84,14 @@ TEST_F(Reload, FewerConnectionsAndLessPatienceHoldAtOnceAndWhoIsThereStays) {
   EXPECT_THAT(reload(), HasSubstr("idle-timeout"));
   HttpClient slow(daemon->port());
   slow.send("GET / HTTP/1.1\r\n");
-  // with the old timeout, the daemon would wait for longer than the client does
+  // With the old timeout, the daemon would keep the connection open for longer than the client
+  // waits for its end.
   EXPECT_TRUE(slow.is_closed());
 }
 
 TEST_F(Reload, ARotatedLogIsOpenedAnew) {
   HttpClient visitor(daemon->port());
-  // A request is in the log once the next one on its connection is answered.
+  // The log contains a request once the next request on the same connection is answered.
   const auto visit = [&](const std::string& word) {
     EXPECT_EQ(visitor.get("/api/v1/models?q=" + word).status, 200);
     EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
@@ -109,6 +110,17 @@ TEST_F(Reload, ARotatedLogIsOpenedAnew) {
     EXPECT_THAT(daemon->access_log(),
                 AllOf(HasSubstr("q=after" + number), Not(HasSubstr("q=before" + number))));
   }
+}
+
+TEST_F(Reload, ALogThatIsFullIsReplaced) {
+  HttpClient visitor(daemon->port());
+  write("public-url = https://one.example\naccess-log-size = 10000\n");
+  EXPECT_THAT(reload(), HasSubstr("new: access-log-size"));
+  const auto old = served.path() / "access.log.old";
+  for (int i = 0; i < 1000 && !std::filesystem::exists(old); ++i)
+    EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
+  EXPECT_GE(std::filesystem::file_size(old), 10'000u);
+  EXPECT_LT(daemon->access_log().size(), 10'000u);
 }
 
 TEST_F(Reload, ALogIsReopenedThoughTheConfigurationHasAFault) {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "server/store/publish.h"
+#include "server/store/s3_upload.h"
 #include "support/process/daemon.h"
 #include "support/process/http_client.h"
 #include "support/process/run_program.h"
@@ -67,7 +68,7 @@ TEST(RemoteInstallation, WhileTheDatabaseIsAwayWhatIsKnownIsServedOn) {
   while (status_of(daemon.admin_port(), "/readyz") != 200)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(status_of(daemon.port(), file_of(other)), 200);
-  EXPECT_THAT(daemon.wait_for_line("cannot use the catalogue"), HasSubstr("event=error"));
+  EXPECT_THAT(daemon.wait_for_line("event=error"), HasSubstr("cannot use the catalogue"));
 }
 
 TEST(RemoteInstallation, NoSecretIsPrinted) {
@@ -100,6 +101,32 @@ TEST(RemoteInstallation, TheDoctorLooksAtBoth) {
   const auto ill = run_program({kVitrine, "doctor", "--data", remote.file()});
   EXPECT_EQ(ill.exit_code, 1);
   EXPECT_THAT(ill.output, HasSubstr("the files of 1 of 1 models are missing"));
+}
+
+TEST(RemoteInstallation, ADamagedObjectOfTheBucketIsFoundAndPutBackFromAFolder) {
+  const RemoteInstallation remote;
+  const TemporaryFolder copy;
+  const std::string id = publish_at(remote.place(), "vase");
+  publish_at({.folder = copy.path()}, "vase");
+  auto bytes = tiny_pmesh("a base", "a chunk of vase").bytes;
+  const std::string hex = to_hex(sha256(bytes));
+  bytes.back() ^= 1;
+  S3Client client(S3Address::parse(remote.place().store).value(), kGatewayKeys);
+  ASSERT_TRUE(s3_upload(client, "objects/" + hex, bytes, 5 << 20));
+  Daemon daemon(remote.place().folder, {"--config", remote.file()});
+  EXPECT_THAT(daemon.wait_for_line("event=error"), HasSubstr("object " + hex));
+  EXPECT_EQ(status_of(daemon.port(), file_of(id)), 500);
+  daemon.wait_for_line("event=error");
+  const auto ill = run_program({kVitrine, "doctor", "--data", remote.file(), "--scrub"});
+  EXPECT_EQ(ill.exit_code, 1);
+  EXPECT_THAT(ill.output, HasSubstr(hex));
+  const auto mended =
+      run_program({kVitrine, "repair", "--data", remote.file(), "--from", copy.path().string()});
+  EXPECT_EQ(mended.exit_code, 0) << mended.errors;
+  EXPECT_EQ(status_of(daemon.port(), file_of(id)), 200);
+  const auto well = run_program({kVitrine, "doctor", "--data", remote.file(), "--scrub"});
+  EXPECT_EQ(well.exit_code, 0) << well.output;
+  EXPECT_THAT(well.output, HasSubstr("all intact"));
 }
 
 TEST(RemoteInstallation, TheCommandMigratesAnInstallation) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A complete scan. The daemon drives a scanner that vitrine-rig simulates, over the real protocols,
-// from the calibration to a model that visitors can open.
+// Tests a complete scan. The daemon drives a scanner that vitrine-rig simulates, over the real
+// protocols, from the calibration to a model that visitors can open.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -44,7 +44,7 @@ class DaemonAtRig : public testing::Test {
 
   // `options` are passed to vitrine-rig.
   explicit DaemonAtRig(std::vector<std::string> options = {}) : options_(std::move(options)) {
-    const auto mesh = write_mesh(torus(60, 30), MeshFormat::kPly, "mm").value();
+    const auto mesh = write_mesh(torus(60, 30), MeshFormat::kPly, {.unit = "mm"}).value();
     std::ofstream(path("object.ply"), std::ios::binary)
         .write(reinterpret_cast<const char*>(mesh.data()),
                static_cast<std::streamsize>(mesh.size()));
@@ -68,8 +68,8 @@ class DaemonAtRig : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  // The command line of vitrine-rig, which runs the script below. The script restarts the daemon
-  // whenever the daemon ends.
+  // Returns the command line of vitrine-rig, which runs the script below. The script restarts the
+  // daemon whenever the daemon ends.
   std::vector<std::string> words() const {
     std::vector<std::string> all = {VITRINE_BIN_DIR "/vitrine-rig",
                                     "--mesh",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real daemon's notifications to systemd. They must stop when the daemon is stuck.
+// Tests the real daemon's notifications to systemd. They must stop when the daemon is stuck.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -142,7 +142,7 @@ TEST_F(ServiceManagerTest, HearsNoMoreOfADaemonWhoseWorkersAreAllStuckAndDoesWhi
   std::filesystem::rename(object, aside);
   // Replaces the object by a FIFO: a worker that opens it blocks until the other end is opened.
   ASSERT_EQ(::mkfifo(object.c_str(), 0600), 0);
-  Daemon daemon(served.path());
+  Daemon daemon(served.path(), {"--scrub-rate", "0"});
   EXPECT_EQ(manager.hear(), "READY=1");
   std::vector<std::unique_ptr<HttpClient>> visitors;
   const auto visit = [&] {

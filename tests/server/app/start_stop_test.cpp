@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the real daemon starts, refuses to start, and ends.
+// Tests how the real daemon starts, refuses to start, and ends.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <csignal>
@@ -50,6 +51,7 @@ TEST(Start, SaysItsVersionAndItsOptions) {
 }
 
 TEST(Start, WrongUsageIsOneLineWithASuggestionAndExitCode2) {
+  EXPECT_THAT(run_vitrined({"--l\xffsen", "127.0.0.1:0"}).output, HasSubstr("--l\\xffsen"));
   const ProgramResult result = run_vitrined({"--lisen", "127.0.0.1:0"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(lines(result.output), 1u);
@@ -67,6 +69,30 @@ TEST(Start, ChecksAConfigurationWithoutServing) {
   const ProgramResult result = run_vitrined({"--config", file, "--check-config"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.output, HasSubstr(file + ":1: unknown key 'listne'; did you mean 'listen'?"));
+}
+
+TEST(Start, OnlyTheOwnerCanEnterANewDataFolderAndReadItsCatalogue) {
+  const TemporaryFolder folder;
+  const std::filesystem::path data = folder.path() / "parent" / "data";
+  const mode_t mask = ::umask(0);
+  const Daemon daemon(data);
+  ::umask(mask);
+  using std::filesystem::perms;
+  const auto mode_of = [](const std::filesystem::path& path) {
+    return std::filesystem::status(path).permissions();
+  };
+  EXPECT_EQ(mode_of(data), perms::owner_all);
+  for (const char* suffix : {"", "-wal", "-shm"})
+    EXPECT_EQ(mode_of((data / kCatalogueFile).string() + suffix),
+              perms::owner_read | perms::owner_write);
+}
+
+TEST(Start, WarnsIfOthersCanReadTheDataFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::others_read,
+                               std::filesystem::perm_options::add);
+  Daemon daemon(folder.path());
+  daemon.wait_for_line("run chmod o-rwx " + folder.path().string());
 }
 
 TEST(Start, ChecksThePathsOfAConfigurationAndCreatesNothing) {

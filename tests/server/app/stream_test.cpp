@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams of the real daemon (subprotocol pmesh.v1).
+// Tests streams of the real daemon (subprotocol pmesh.v1).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A daemon in the foreground of a terminal.
+// Tests a daemon in the foreground of a terminal.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon over TLS, over a Unix socket, and behind proxies.
+// Tests the daemon over TLS, over a Unix socket, and behind proxies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -130,6 +130,10 @@ TEST(Proxies, AreBelievedWhereTheyAreTrusted) {
   }
 }
 
+std::string from(const std::string& address) {
+  return "X-Forwarded-For: " + address + "\r\n";
+}
+
 TEST(Limits, WhoAsksTooOftenIsToldWhenToComeBackAndOthersAreServed) {
   ServedFolder folder;
   const std::string id = folder.publish("A small bust");
@@ -139,8 +143,9 @@ TEST(Limits, WhoAsksTooOftenIsToldWhenToComeBackAndOthersAreServed) {
   while (answer.status != 429)
     answer = client.get("/api/v1/models/" + id, "X-Forwarded-For: 192.0.2.7\r\n");
   EXPECT_EQ(answer.field("retry-after"), "1");
-  EXPECT_EQ(client.get("/", "X-Forwarded-For: 192.0.2.7\r\n").status != 429, true)
-      << "pages come from memory";
+  EXPECT_EQ(client.get("/api/v1/openapi.json", from("192.0.2.7")).status, 200)
+      << "it comes from memory";
+  EXPECT_EQ(client.get("/nothing", from("192.0.2.7")).status, 429);
   EXPECT_EQ(client.get("/api/v1/models/" + id, "X-Forwarded-For: 192.0.2.8\r\n").status, 200);
 }
 
@@ -160,8 +165,14 @@ TEST(Limits, AnAddressHasNoMoreConnectionsThanItsShareUnlessItIsAProxys) {
   }
 }
 
-std::string from(const std::string& address) {
-  return "X-Forwarded-For: " + address + "\r\n";
+TEST(Limits, OneAddressHasATenthOfAllConnectionsByDefault) {
+  ServedFolder folder;
+  const Daemon daemon(folder.path(), {"--max-connections", "20"});
+  HttpClient first(daemon.port()), second(daemon.port());
+  EXPECT_EQ(first.get("/nothing").status, 404);
+  EXPECT_EQ(second.get("/nothing").status, 404);
+  HttpClient third(daemon.port());
+  EXPECT_EQ(third.receive().status, 429);
 }
 
 TEST(Limits, ATokenHasOneBudgetWhereverItIsUsed) {

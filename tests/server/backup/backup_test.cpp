@@ -13,6 +13,7 @@
 #include "server/backup/checksums.h"
 #include "server/backup/tar.h"
 #include "server/catalogue/snapshot.h"
+#include "server/catalogue/sqlite.h"
 #include "server/store/change.h"
 #include "server/store/installation.h"
 #include "support/process/run_program.h"
@@ -24,8 +25,9 @@ namespace vitrine::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 std::string slurp(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -83,6 +85,8 @@ TEST_F(BackupTest, TheRestoredInstallationEqualsTheOriginal) {
   fs::create_directories(data / "scans/one");
   write(data / "scans/one/profiles", "measured");
   write(data / "scans/one/.half.part", "not yet");
+  fs::create_directories(data / "scans/.removed-two");
+  write(data / "scans/.removed-two/profiles", "being deleted");
   const auto report = back_up(data, tar);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->models, 3u);
@@ -143,6 +147,18 @@ TEST_F(BackupTest, OnlyItsOwnerCanReadItFromTheFirstByteOn) {
         << entry.path();
   }
   EXPECT_EQ(names_in(folder.path()).size(), 4u);
+}
+
+TEST_F(BackupTest, OnlyTheOwnerCanEnterARestoredFolderAndReadItsCatalogue) {
+  publish("Shown");
+  ASSERT_TRUE(back_up(data, tar));
+  const mode_t mask = ::umask(0);
+  const auto restored = restore(tar, path("again"));
+  ::umask(mask);
+  ASSERT_TRUE(restored) << restored.error().message;
+  EXPECT_EQ(fs::status(path("again")).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(fs::status(path("again/catalogue.sqlite")).permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
 }
 
 TEST_F(BackupTest, OrdinaryToolsReadAndCheckIt) {
@@ -219,21 +235,50 @@ TEST_F(BackupTest, AnEntryThatDoesNotBelongInABackupIsRefused) {
   }
 }
 
-TEST_F(BackupTest, ADamagedObjectIsNamedAndNoFileIsLeft) {
-  const ModelId id = publish("Shown");
-  const ModelRecord model = installation.catalogue->find(id).value().value();
-  const std::string hex = to_hex(model.file);
-  const fs::path object = data / "objects" / hex.substr(0, 2) / hex.substr(2, 2) / hex;
-  fs::permissions(object, fs::perms::owner_all);
-  write(object, slurp(object) + "!");
-  const auto damaged = back_up(data, tar);
-  ASSERT_FALSE(damaged);
-  EXPECT_THAT(damaged.error().message, HasSubstr(hex + " is damaged"));
-  fs::remove(object);
-  const auto missing = back_up(data, tar);
-  ASSERT_FALSE(missing);
-  EXPECT_THAT(missing.error().message, HasSubstr("the file of model " + id.to_string()));
-  EXPECT_THAT(names_in(folder.path()), ::testing::ElementsAre("data"));
+TEST_F(BackupTest, DamagedFilesAreListedAndTheRestIsSavedAndRestored) {
+  const ModelId sound = publish("Sound"), damaged = publish("Damaged"), lost = publish("Lost");
+  const auto path_of = [&](const ModelId& id) {
+    return object_path(installation.catalogue->find(id).value()->file);
+  };
+  write(data / path_of(damaged), slurp(data / path_of(damaged)) + "!");
+  fs::remove(data / path_of(lost));
+  const auto saved = back_up(data, tar);
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_THAT(
+      saved->damaged,
+      UnorderedElementsAre(path_of(damaged) + " of model " + damaged.to_string() + " is damaged",
+                           path_of(lost) + " of model " + lost.to_string() + " is missing"));
+  const auto restored = restore(tar, path("again"));
+  ASSERT_TRUE(restored) << restored.error().message;
+  EXPECT_EQ(restored->models, 3u);
+  EXPECT_EQ(restored->files, saved->files);
+  EXPECT_EQ(restored->damaged.size(), 2u);
+  EXPECT_EQ(slurp(path("again") / path_of(sound)), slurp(data / path_of(sound)));
+  EXPECT_FALSE(fs::exists(path("again") / path_of(damaged)));
+  EXPECT_FALSE(fs::exists(path("again") / path_of(lost)));
+}
+
+TEST_F(BackupTest, AScanFileThatCannotBeReadIsListed) {
+  publish("Shown");
+  fs::create_directories(data / "scans/one");
+  write(data / "scans/one/profiles", "measured");
+  write(data / "scans/one/steps", "");
+  fs::resize_file(data / "scans/one/steps", TarReader::kMaxFile + 1);  // more than an entry takes
+  const auto saved = back_up(data, tar);
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_THAT(saved->damaged, ElementsAre("scans/one/steps cannot be read"));
+  ASSERT_TRUE(restore(tar, path("again")));
+  EXPECT_EQ(slurp(path("again/scans/one/profiles")), "measured");
+}
+
+TEST_F(BackupTest, ADamagedCatalogueIsSavedAndListed) {
+  publish("Shown");
+  sqlite::SqliteHandle(data / kCatalogueFile)
+      .run("PRAGMA foreign_keys = OFF; INSERT INTO chunk VALUES (x'01', x'02', 3, 4)");
+  const auto saved = back_up(data, tar);
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_THAT(saved->damaged, ElementsAre(HasSubstr("catalogue.sqlite: a row of the table chunk")));
+  EXPECT_TRUE(restore(tar, path("again")));
 }
 
 }  // namespace

@@ -13,12 +13,21 @@ namespace {
 
 // SQL that turns the newest tables into those of the version before daemons could claim jobs.
 const std::string kBeforeClaims =
-    "DROP INDEX job_untold; DROP INDEX job_of_state; DROP TABLE revision; DROP TABLE scanner;"
+    "DROP INDEX model_guard; DROP INDEX job_guard; DROP INDEX scan_guard; DROP INDEX token_guard;"
+    "DROP INDEX idempotency_guard; DROP INDEX job_untold; DROP INDEX job_of_state; DROP TABLE "
+    "revision; DROP TABLE scanner; DROP TABLE visit;"
     "DROP TRIGGER model_added; DROP TRIGGER model_changed; DROP TRIGGER model_removed;"
     "DROP TRIGGER token_added; DROP TRIGGER token_changed;"
-    "ALTER TABLE scan DROP COLUMN turn; ALTER TABLE job DROP COLUMN fence; ALTER TABLE job DROP "
+    "ALTER TABLE scan DROP COLUMN built; ALTER TABLE scan DROP COLUMN turn; ALTER TABLE job DROP "
+    "COLUMN fence; ALTER TABLE job DROP "
     "COLUMN holder;"
-    "ALTER TABLE job DROP COLUMN lease; ALTER TABLE job DROP COLUMN cancelled;";
+    "ALTER TABLE job DROP COLUMN lease; ALTER TABLE job DROP COLUMN cancelled;"
+    "ALTER TABLE job DROP COLUMN repairs; ALTER TABLE job DROP COLUMN owner;"
+    "ALTER TABLE model DROP COLUMN texture_count; ALTER TABLE model DROP COLUMN texture_side;"
+    "ALTER TABLE model DROP COLUMN texture_bytes;"
+    "ALTER TABLE model DROP COLUMN public_texture_count;"
+    "ALTER TABLE model DROP COLUMN public_texture_side;"
+    "ALTER TABLE model DROP COLUMN public_texture_bytes;";
 
 class Migrations : public testing::Test {
  protected:

@@ -95,6 +95,27 @@ TEST(CommandLine, RefusesValuesOutOfRangeAndSaysWhereTheyCameFrom) {
   EXPECT_FALSE(parse({}, {"VITRINE_MAX_CONNECTIONS=0"}));
 }
 
+TEST(CommandLine, OneAddressMayHaveANumberOfConnectionsOrAShare) {
+  const auto connections = [](std::string_view text) {
+    const auto line = parse({"--max-connections-per-address", text});
+    return line ? connections_of(line->settings.max_connections_per_address, 300) : 0;
+  };
+  EXPECT_EQ(connections_of(parse({})->settings.max_connections_per_address, 300), 30u);
+  EXPECT_EQ(connections("25%"), 75u);
+  EXPECT_EQ(connections("7"), 7u);
+  EXPECT_EQ(connections("0"), SIZE_MAX);
+  EXPECT_EQ(connections_of({.value = 10, .is_percentage = true}, 1), 1u);
+  for (const char* wrong : {"0%", "101%", "%", "-1", "10 %", "1000001"})
+    EXPECT_EQ(connections(wrong), 0u) << wrong;
+}
+
+TEST(CommandLine, HostsAreNamesWithoutPorts) {
+  EXPECT_THAT(parse({"--hosts", "museum.example,intranet"})->settings.hosts,
+              ::testing::ElementsAre("museum.example", "intranet"));
+  for (const char* wrong : {"a,,b", "museum.example:80", "https://museum.example", "a b"})
+    EXPECT_FALSE(parse({"--hosts", wrong})) << wrong;
+}
+
 TEST(CommandLine, EveryFaultEndsWithTheNextStep) {
   for (const Words& words :
        {Words{"--listen", "8080"}, Words{"--listen", "museum:80"}, Words{"--listen", "127.0.0.1:x"},
@@ -152,6 +173,36 @@ TEST(CommandLine, SecretsAreNotPrintedNorRepeatedInFaults) {
   ASSERT_FALSE(fault);
   EXPECT_EQ(fault.error().message,
             "--catalogue: the URL does not begin with postgresql://; correct it");
+}
+
+TEST(CommandLine, ASecretOfWebhooksThatIsNoKeyIsRefused) {
+  const auto line = parse({"--webhook-secret", "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIz"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->settings.webhook_key, "012345678901234567890123");
+  EXPECT_THAT(print_config(*line), testing::Not(HasSubstr("MDEy")));
+  for (const char* secret :
+       {"hush", "whsec_", "whsec_aHVzaA==", "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzhush!",
+        "MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIz", "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTI"}) {
+    const auto fault = parse({"--webhook-secret", secret});
+    ASSERT_FALSE(fault) << secret;
+    EXPECT_THAT(fault.error().message, HasSubstr("--webhook-secret: the secret is not whsec_"));
+    EXPECT_THAT(fault.error().message, testing::Not(HasSubstr("hush")));
+  }
+}
+
+TEST(CommandLine, AddressesInLogsAreFullOrShort) {
+  EXPECT_FALSE(parse({})->settings.shortens_addresses);
+  EXPECT_TRUE(parse({"--log-addresses", "short"})->settings.shortens_addresses);
+  EXPECT_EQ(parse({"--log-addresses", "none"}).error().message,
+            "--log-addresses: 'none' is not a form of addresses; give full or short");
+}
+
+TEST(CommandLine, VisitsAreCountedUnlessTheSettingSaysNo) {
+  EXPECT_TRUE(parse({})->settings.counts_visits);
+  EXPECT_TRUE(parse({"--count-visits", "yes"})->settings.counts_visits);
+  EXPECT_FALSE(parse({"--count-visits", "no"})->settings.counts_visits);
+  EXPECT_EQ(parse({"--count-visits", "0"}).error().message,
+            "--count-visits: '0' is neither yes nor no; give one");
 }
 
 TEST(CommandLine, ADaemonHasTheGivenRolesByDefaultAll) {

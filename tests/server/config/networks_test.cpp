@@ -36,6 +36,14 @@ TEST(Networks, LimitsCountAnIpv4AddressAndTheFirstHalfOfAnIpv6Address) {
   EXPECT_EQ(network_of("unix"), "unix");
 }
 
+TEST(Networks, AShortenedAddressIsThatOfManySubscribers) {
+  EXPECT_EQ(shortened("192.0.2.7"), "192.0.2.0/24");
+  EXPECT_EQ(shortened("::ffff:192.0.2.7"), "192.0.2.0/24");
+  EXPECT_EQ(shortened("2001:db8:1:2:3:4:5:6"), "2001:db8:1::/48");
+  EXPECT_EQ(shortened("::1"), "::/48");
+  EXPECT_EQ(shortened("unix"), "unix");
+}
+
 TEST(Networks, AnEntryThatIsNoNetworkIsNamed) {
   for (const char* text : {"10.0.0.0/33", "::/129", "10.0.0/8", "10.0.0.0/", "10.0.0.0/8x", "proxy",
                            "10.0.0.1,,10.0.0.2", "10.0.0.0/-1"})

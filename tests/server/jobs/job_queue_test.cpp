@@ -199,6 +199,23 @@ TEST_F(Jobs, AJobIsCancelledWhereItRunsWaitsOrIsPaused) {
   EXPECT_EQ(queue->cancel(running.id).error().code, ErrorCode::kState);
 }
 
+TEST_F(Jobs, JobsWithoutAScannerRunInTurnsOfTheirOwners) {
+  std::string order;
+  JobQueue queue(*catalogue_, events_, [&](JobRun& run) -> Expected<JobEnd> {
+    order += run.job().owner;
+    return JobEnd::kDone;
+  });
+  test::HeldExecutor held(queue.executor(""));
+  for (const char* owner : {"a", "a", "a", "b", "a", "c"}) {
+    JobRecord job = job_for("", JobKind::kPublish);
+    job.owner = owner;
+    ASSERT_TRUE(queue.add(job, {}, {}));
+  }
+  held.let_go();
+  settle(queue, "");
+  EXPECT_EQ(order, "abcaaa");
+}
+
 TEST_F(Jobs, AJobThatFailsSaysWhy) {
   const auto queue = queue_of([](JobRun& run) -> Expected<JobEnd> {
     if (run.job().kind == JobKind::kScan) return fail(ErrorCode::kIo, "the camera is gone");
@@ -233,7 +250,8 @@ TEST_F(Jobs, TheSameKeyAndRequestAreTheSameJobAndAnotherRequestIsRefused) {
   const JobRecord job = job_for("a");
   ASSERT_TRUE(queue->add(job, {}, IdempotencyKey{"key", Sha256{1}}));
   const auto again = queue->add(job_for("a"), {}, IdempotencyKey{"key", Sha256{1}});
-  ASSERT_TRUE(again) << again.error().message;  // even if the job still keeps the scanner busy
+  // The same key must give the same job, even while that job keeps the scanner busy.
+  ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(again->id, job.id);
   const auto other = queue->add(job_for("a"), {}, IdempotencyKey{"key", Sha256{2}});
   ASSERT_FALSE(other);
@@ -300,6 +318,21 @@ TEST_F(Jobs, AJobAtWhichThreeDaemonsHaveDiedFails) {
     EXPECT_EQ(catalogue_->find_job(killed.id).value()->attempts, 0u);
     ASSERT_TRUE(catalogue_->update(left));  // as if the daemon had been killed instead
   }
+}
+
+TEST_F(Jobs, AJobIsDoneIfItsModelWasStoredBeforeTheThirdDaemonDied) {
+  JobRecord killed = job_for("", JobKind::kPublish);
+  killed.state = JobState::kRunning;
+  killed.attempts = 3;
+  killed.model = ModelId::generate();
+  ASSERT_TRUE(catalogue_->add(killed, {}, {}));
+  const auto queue = gated();
+  ASSERT_TRUE(queue->start());
+  const JobRecord ended = catalogue_->find_job(killed.id).value().value();
+  EXPECT_EQ(ended.state, JobState::kDone);
+  EXPECT_EQ(ended.model, killed.model);
+  EXPECT_EQ(ended.error, "");
+  EXPECT_EQ(ended.progress, 1);
 }
 
 TEST_F(Jobs, NothingReactsToARequestOnceWhatWouldIsGone) {

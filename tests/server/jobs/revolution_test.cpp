@@ -46,6 +46,16 @@ TEST_F(Turns, ARevolutionOfAnotherDaemonIsNotShownAsThisOnes) {
   EXPECT_EQ(service_->reprocess(entry, order_, {}).error().code, ErrorCode::kState);
 }
 
+TEST_F(Turns, AnInterruptedDeletionIsCompletedAtTheNextStart) {
+  begin_and_stop();
+  service_.reset();
+  const auto left = folder_.path() / "scans" / ".removed-one";
+  std::filesystem::create_directory(left);
+  std::ofstream(left / "profiles") << "measured";
+  start();
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
 TEST_F(Turns, MeasuredStepsAreKeptIfTheirRevolutionCannotBeRead) {
   const auto started = begin_and_stop();
   service_.reset();

@@ -80,7 +80,7 @@ TEST_F(Scans, WhileOneScansAnotherScanACalibrationJogAndLaserAreRefused) {
   EXPECT_EQ(service_->scan(order_, {}).error().code, ErrorCode::kState);
   EXPECT_EQ(service_->calibrate(station(), {}, {}).error().code, ErrorCode::kState);
   EXPECT_EQ(station().jog(10).error().code, ErrorCode::kState);
-  EXPECT_EQ(station().laser(true).error().code, ErrorCode::kState);
+  EXPECT_EQ(station().switch_laser_on([] { return true; }).error().code, ErrorCode::kState);
   EXPECT_EQ(station().status().state, ScannerState::kBusy);
   EXPECT_TRUE(station().status().scan);
   held.open();
@@ -88,7 +88,7 @@ TEST_F(Scans, WhileOneScansAnotherScanACalibrationJogAndLaserAreRefused) {
 
 TEST_F(Scans, ManualCommandsReachTheDevicesAndALostDeviceIsAProblemUntilItIsBack) {
   ASSERT_TRUE(station().jog(10));
-  ASSERT_TRUE(station().laser(true));
+  ASSERT_TRUE(station().switch_laser_on([] { return true; }));
   EXPECT_EQ(world_.degrees, 10);
   EXPECT_TRUE(world_.laser);
   EXPECT_EQ(service_->picture(station()).value(), (acquisition::Frame{1, 2, {3, 4}}));
@@ -292,7 +292,7 @@ TEST_F(Scans, ProgressAndCalibrationAreNotLostWhenTheDaemonWasKilled) {
   ASSERT_TRUE(installation_.jobs->update(entry, {job.id, job.fence}));
   ASSERT_TRUE(installation_.jobs->update(job));
   std::promise<void> seen;
-  // holds the job before it starts
+  // Holds the job before it starts.
   world_.while_opening = [until = seen.get_future().share()] { until.wait(); };
   start();
   const ScanInfo scan = info(started.scan);
@@ -327,7 +327,7 @@ TEST_F(Scans, AModelPublishedBeforeACrashIsNotPublishedTwice) {
   JobRecord job = *installation_.jobs->find_job(started.job).value();
   const auto model = job.model;
   ASSERT_TRUE(model);
-  job.state = JobState::kRunning;  // the state that is stored until the job ends
+  job.state = JobState::kRunning;  // the stored state while a job runs, and after a crash
   job.model.reset();
   ASSERT_TRUE(installation_.jobs->update(job));
   start();

@@ -50,7 +50,7 @@ TEST_F(Claimants, ADaemonSuspendedBeyondItsLeaseCommandsNothingAndLearnsTheNewDr
   const auto first = daemon("first", 1h), second = daemon("second", 1h);
   first->start({"left"});
   second->start({"left"});
-  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if its lease had expired
+  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if the first daemon's lease had expired
   second->beat();
   EXPECT_TRUE(second->check("left"));
   first->beat();
@@ -63,7 +63,7 @@ TEST_F(Claimants, NoDaemonWaitsForAnExpiredLease) {
   first->start({"left"});
   second->beat();
   EXPECT_EQ(second->address_of("left"), "http://a:1");
-  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if its lease had expired
+  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if the first daemon's lease had expired
   second->beat();
   EXPECT_EQ(second->address_of("left"), "");
   EXPECT_TRUE(second->others().empty());
@@ -79,7 +79,7 @@ TEST_F(Claimants, ALeaseThatCouldNotBeRenewedDoesNotCountAsExpired) {
   database->lease()->run("ALTER TABLE scanner RENAME TO away");
   second->beat();
   database->lease()->run("ALTER TABLE away RENAME TO scanner");
-  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if its lease had expired
+  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if the first daemon's lease had expired
   second->beat();
   EXPECT_FALSE(second->check("left"));
   // The third daemon has just started. It does not know that the catalogue was unreachable, so it

@@ -29,7 +29,8 @@ class ScansTest : public testing::Test {
                                                          .data = folder_.path(),
                                                          .program = VITRINE_BIN_DIR "/vitrined",
                                                          .idle_timeout = idle_timeout,
-                                                         .quota = quota_.get()},
+                                                         .quota = quota_.get(),
+                                                         .now = [this] { return now_.load(); }},
                                       std::move(backends));
     ASSERT_TRUE(service_->start());
   }
@@ -55,10 +56,13 @@ class ScansTest : public testing::Test {
     EXPECT_TRUE(started) << started.error().message;
     return *started;
   }
+  // Moves the clock to the time at which a laser must be off that was lit just now.
+  void let_the_laser_end() { now_ = now_.load() + kLongestLit; }
   ScannerStation& station() { return *service_->scanner(world_.name); }
 
   const ScanOrder order_{
       .scanner = "rig", .request = {.steps = 12}, .metadata = {.title = "A ring"}};
+  std::atomic<ScannerStation::Clock::time_point> now_{ScannerStation::Clock::now()};
   test::FakeScanner world_;
   test::TemporaryFolder folder_;
   Installation installation_ = open_installation({.folder = folder_.path()}).value();

@@ -17,7 +17,7 @@ namespace {
 
 class SessionDevices : public testing::Test {
  protected:
-  // From now on, the open board fails. A board that is opened later works.
+  // Makes the open board fail from now on. A board that is opened later works.
   void lose_board() {
     const int lost = world_.calls["open board"];
     world_.fault = [this, lost](const std::string& call, int) {
@@ -104,7 +104,7 @@ TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsUndone) {
   };
   EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
   world_.meanwhile = {};
-  backend_.allow(0);  // as for a client that does not know of the stop
+  backend_.allow(0);  // as requested by a client that does not know of the stop
   EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
   EXPECT_EQ(world_.degrees, 0);
   EXPECT_TRUE(backend_.picture());

@@ -137,6 +137,22 @@ TEST_F(SharedJobs, OneDaemonAcceptsAJobThatAnotherRunsAndShowsItsProgress) {
   EXPECT_EQ(first_.told(), std::vector{JobState::kDone});
 }
 
+TEST_F(SharedJobs, ManyJobsOfOneOwnerDoNotDelayTheJobOfAnotherOnAnyDaemon) {
+  constexpr int kMany = 140;  // more than a daemon takes up at once
+  const auto add_for = [&](const std::string& owner) {
+    JobRecord job = upload();
+    job.owner = owner;
+    add(job);
+    return job;
+  };
+  for (int i = 0; i < kMany; ++i)
+    add_for("many");
+  first_.begin();
+  const JobRecord other = add_for("few");
+  second_.begin();
+  EXPECT_EQ(stored(other), JobState::kRunning);
+}
+
 TEST_F(SharedJobs, ADaemonSuspendedBeyondItsLeaseLeavesTheJobToAnother) {
   const JobRecord job = begun();
   const auto watched = first_.queue().run(job.id);

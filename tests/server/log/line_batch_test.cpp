@@ -21,8 +21,8 @@ std::string read_all(int descriptor) {
   return text;
 }
 
-// If the pipe is full, a signal interrupts write(2), which then returns the number of bytes
-// written.
+// A write(2) to a full pipe waits. A signal interrupts the wait, and write(2) then returns the
+// number of bytes written.
 TEST(LineBatch, AWriteThatIsInterruptedTearsNoLine) {
   struct sigaction action {};
   action.sa_handler = [](int) {};  // without SA_RESTART, write(2) is not continued

@@ -24,6 +24,7 @@ TEST(RequestBody, IsAnObjectAndAnEmptyOneWhereThereIsNone) {
   EXPECT_EQ(parse_body("application/json", R"({"on":true})")->at("on"), true);
   EXPECT_TRUE(parse_body("", "")->is_object());
   EXPECT_EQ(status_of(" {} \r\n"), 200u);
+  EXPECT_EQ(status_of("{}", "application/merge-patch+json"), 200u);
 }
 
 TEST(RequestBody, AnythingElseIsRefused) {

@@ -4,18 +4,25 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "codec/build/build_model.h"
 #include "codec/export/write_mesh.h"
 #include "codec/format/manifest.h"
+#include "support/as_bytes.h"
 #include "support/meshes.h"
+#include "support/packages/write_package.h"
+#include "support/temporary_folder.h"
 
 namespace vitrine::server {
 namespace {
 
 const std::vector<std::uint8_t>& mesh() {
-  static const auto bytes = write_mesh(test::torus(60, 30), MeshFormat::kPly, "mm").value();
+  static const auto bytes =
+      write_mesh(test::torus(60, 30), MeshFormat::kPly, {.unit = "mm"}).value();
   return bytes;
 }
 
@@ -26,7 +33,8 @@ BuildOrder order() {
 TEST(BuildChild, GivesTheResultOfABuildInThisProcess) {
   const auto built = BuildChild().build(mesh(), order(), {});
   ASSERT_TRUE(built) << built.error().message;
-  EXPECT_EQ(*built, build_model(mesh(), {.bits = 12}, {})->file);
+  EXPECT_EQ(built->file, build_model(mesh(), {.bits = 12}, {})->file);
+  EXPECT_EQ(built->repairs, "");
 }
 
 TEST(BuildChild, ReceivesBitsPlacementAndUpAxis) {
@@ -37,10 +45,35 @@ TEST(BuildChild, ReceivesBitsPlacementAndUpAxis) {
   const auto built = BuildChild().build(mesh(), other, {});
   ASSERT_TRUE(built) << built.error().message;
   EXPECT_EQ(
-      *built,
+      built->file,
       build_model(mesh(),
                   {.reading = {.up = UpAxis::kZ}, .bits = 11, .placement = Placement::kPyramid}, {})
           ->file);
+}
+
+TEST(BuildChild, TellsWhatItHasRepaired) {
+  constexpr std::string_view kTwice = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\nf 1 1 2\n";
+  const std::span text(reinterpret_cast<const std::uint8_t*>(kTwice.data()), kTwice.size());
+  const auto built = BuildChild().build(text, order(), {});
+  ASSERT_TRUE(built) << built.error().message;
+  const auto here = build_model(text, {}, {});
+  std::string expected;
+  for (const std::string& line : here->report.input.repairs)
+    expected += (expected.empty() ? "" : "\n") + line;
+  EXPECT_NE(expected, "");
+  EXPECT_EQ(built->repairs, expected);
+}
+
+TEST(BuildChild, UnpacksAPackageWithNamesBeyondAscii) {
+  const std::string obj = "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+  const test::FilesToPack files{{"B\xC3\xBCste/sc\xC3\xA8ne.obj", obj},
+                                {"B\xC3\xBCste/b.mtl", "newmtl a\nKd 1 0 0\n"}};
+  for (const std::string& package : {test::zip_of(files), test::gzip_of(test::tar_of(files))}) {
+    const auto built = BuildChild().build(testing::as_bytes(package), order(), {});
+    ASSERT_TRUE(built) << built.error().message;
+    EXPECT_EQ(built->file, build_model(testing::as_bytes(package), {.bits = 12}, {})->file);
+    EXPECT_NE(built->repairs.find("material colours baked"), std::string::npos) << built->repairs;
+  }
 }
 
 TEST(BuildChild, WorksBesideThreadsThatHoldLocks) {
@@ -65,6 +98,33 @@ TEST(BuildChild, ReportsProgress) {
       mesh(), order(), [&](std::string_view stage, double) { stages.emplace_back(stage); }));
   ASSERT_FALSE(stages.empty());
   EXPECT_EQ(stages.back(), "write");
+}
+
+// Returns the text of a file of /proc.
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Returns the limit on the address space of this thread's child in bytes; 0 if it is unlimited.
+std::uint64_t address_space_of_child() {
+  std::uint64_t child = 0, limit = 0;
+  std::istringstream(text_of("/proc/thread-self/children")) >> child;
+  const std::string limits = text_of("/proc/" + std::to_string(child) + "/limits");
+  constexpr std::string_view kName = "Max address space";
+  std::istringstream(limits.substr(limits.find(kName) + kName.size())) >> limit;
+  return limit;
+}
+
+TEST(BuildChild, HasABoundOnItsSpillFileHoweverLargeTheDiskIs) {
+  const test::TemporaryFolder folder;
+  BuildOrder spilling = order();
+  spilling.folder = folder.path();
+  std::uint64_t address_space = 0;
+  ASSERT_TRUE(BuildChild().build(mesh(), spilling, [&](std::string_view, double) {
+    if (address_space == 0) address_space = address_space_of_child();
+  }));
+  EXPECT_LE(address_space, SandboxLimits().memory_bytes + (16ull << 30));
 }
 
 TEST(BuildChild, AnErrorOfTheBuildIsItsOwn) {

@@ -13,18 +13,23 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <memory>
+#include <system_error>
 #include <thread>
 
+#include "server/sandbox/separation.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::server {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
 // Returns the errno of a call in the sandbox; 0 if the call succeeded.
@@ -178,8 +183,8 @@ TEST(Sandbox, DescriptorsOfTheParentAreOutOfReach) {
   ::close(secret);
 }
 
-// Builds with sanitizers omit this test, because their shadow memory needs more address space than
-// any limit allows.
+// Builds with sanitizers omit this test: their shadow memory needs more address space than any
+// limit allows.
 #ifndef VITRINE_SANITISED
 TEST(Sandbox, MemoryBeyondTheLimitIsALimitErrorThatSaysHowMuch) {
   const SandboxLimits limits{.memory_bytes = 1ull << 30};
@@ -192,6 +197,62 @@ TEST(Sandbox, MemoryBeyondTheLimitIsALimitErrorThatSaysHowMuch) {
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().code, ErrorCode::kLimit);
   EXPECT_THAT(answer.error().message, HasSubstr("more than 1 GB of memory"));
+}
+
+// Runs `task` in the sandbox of a process whose address space is limited as LimitAS does, and
+// returns the error message.
+std::string error_under(rlim_t address_space, const SandboxedTask& task) {
+  int ends[2];
+  EXPECT_EQ(::pipe(ends), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const rlimit limit{address_space, address_space};
+    ::setrlimit(RLIMIT_AS, &limit);
+    const auto inner = run(task);
+    const std::string text = inner ? "no error" : inner.error().message;
+    ::_exit(::write(ends[1], text.data(), text.size()) < 0 ? 1 : 0);
+  }
+  ::close(ends[1]);
+  std::string text(4096, '\0');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(::read(ends[0], text.data(), 4096), 0)));
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  return text;
+}
+
+TEST(Sandbox, AnInheritedLimitOnTheAddressSpaceIsNamed) {
+  const SandboxedTask hog = [](const auto&) -> Expected<Bytes> { return Bytes(2ull << 30); };
+  EXPECT_THAT(error_under(1ull << 30, hog),
+              HasSubstr("more address space than the 1 GB that LimitAS of the service"));
+  EXPECT_EQ(error_under(1ull << 30, [](const auto&) { return Bytes{}; }), "no error");
+}
+
+// The task unmaps a part of the spill file, and then maps private memory in its place.
+TEST(Sandbox, TheAddressSpaceOfTheSpillFileIsOfNoOtherUse) {
+  constexpr std::size_t kLimit = 256u << 20, kPart = 1u << 30;
+  const test::TemporaryFolder folder;
+  const auto task = [](const auto&) -> Expected<Bytes> {
+    if (spill_capacity() < kPart) return fail(ErrorCode::kLimit, "the disk has too little room");
+    auto* const spilled = new std::uint8_t[1 << 20];  // the first block lies at the file's start
+    if (spilled_bytes() == 0 || ::munmap(spilled, kPart) != 0)
+      return fail(ErrorCode::kIo, "the block was not spilled");
+    return outcome(::mmap(nullptr, 2 * kLimit, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS,
+                          -1, 0) == MAP_FAILED
+                       ? -1
+                       : 0);
+  };
+  const auto answer =
+      run(task, {.memory_bytes = kLimit, .spill = {.folder = folder.path(), .resident_bytes = 1}});
+  ASSERT_TRUE(answer) << answer.error().message;
+  EXPECT_EQ(*answer, Bytes{ENOMEM});
+}
+
+TEST(Sandbox, AThreadThatTheSystemRefusesIsALimitError) {
+  const SandboxedTask start = [](const auto&) -> Expected<Bytes> {
+    throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+  };
+  EXPECT_THAT(error_of(start), HasSubstr("raise TasksMax of the service"));
+  EXPECT_THAT(error_under(2ull << 30, start), HasSubstr("LimitAS of the service"));
 }
 
 TEST(Sandbox, OneAllocationOfFourGigabytesIsBeyondTheDefaultLimit) {
@@ -243,6 +304,70 @@ TEST(Sandbox, ACrashIsAnErrorAndNotACrashHere) {
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().code, ErrorCode::kBadInput);
   EXPECT_THAT(answer.error().message, HasSubstr("crashed (Segmentation fault)"));
+}
+
+TEST(Sandbox, AChildThatTheKernelKillsForItsMemoryIsALimitError) {
+  const auto answer = run([](const auto&) -> Expected<Bytes> {
+    ::raise(SIGKILL);
+    return Bytes{};
+  });
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kLimit);
+  EXPECT_THAT(answer.error().message, HasSubstr("memory ran out; raise MemoryMax"));
+}
+
+// Returns the result of `look` for the folder /proc/PID of a sandboxed child. The child waits
+// meanwhile.
+std::string look_at_child(const std::function<std::string(const std::filesystem::path&)>& look) {
+  std::string found;
+  const auto answer = run_sandboxed(
+      {},
+      [](const ProgressReport& report) -> Expected<Bytes> {
+        for (int i = 0; i < 10'000; ++i)  // more than the pipe holds, so the child waits for reads
+          report("a stage with a long name", 0.5);
+        return Bytes{};
+      },
+      [&](std::string_view, double) {
+        if (!found.empty()) return;
+        std::string pid;
+        std::ifstream("/proc/thread-self/children") >> pid;
+        found = look(std::filesystem::path("/proc") / pid);
+      });
+  EXPECT_TRUE(answer);
+  return found;
+}
+
+#ifndef VITRINE_SANITISED  // the sanitizers' threads keep a process from leaving its namespaces
+// Whether the kernel lets a process of this user leave the network.
+bool can_leave_network() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(leave_network() ? 0 : 1);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status == 0;
+}
+
+TEST(Sandbox, TheChildHasANetworkOfItsOwn) {
+  if (!can_leave_network()) GTEST_SKIP() << "the kernel allows no network namespaces here";
+  std::error_code refused;
+  const auto network_of = [&](const std::filesystem::path& process) {
+    const auto network = std::filesystem::read_symlink(process / "ns/net", refused).string();
+    return refused ? "unknown" : network;
+  };
+  const std::string own = network_of("/proc/self"), childs = look_at_child(network_of);
+  if (refused) GTEST_SKIP() << "only root may look at a confined process";
+  EXPECT_THAT(childs, testing::StartsWith("net:["));
+  EXPECT_NE(childs, own);
+}
+#endif
+
+TEST(Sandbox, TheKernelKillsTheChildFirstIfMemoryRunsOut) {
+  EXPECT_EQ(look_at_child([](const std::filesystem::path& process) {
+              std::string score;
+              std::ifstream(process / "oom_score_adj") >> score;
+              return score;
+            }),
+            "1000");
 }
 
 TEST(Sandbox, AnUncaughtExceptionIsAnError) {

@@ -10,7 +10,7 @@
 namespace vitrine::server {
 namespace {
 
-class SpareMemoryTest : public testing::Test {
+class SpareMemoryTest : public ::testing::Test {
  protected:
   // Allocates blocks of `bytes` bytes until the reserve is exhausted. Returns the blocks.
   std::vector<void*> all(std::size_t bytes) {

@@ -137,12 +137,25 @@ TEST(Spill, MemoryIsUsedIfTheDiskRefusesLargeFiles) {
   EXPECT_EQ(*answer, Bytes{1});
 }
 
+TEST(Spill, TheFileGrowsNoLargerThanItsLimitAndTheRestUsesMemory) {
+  constexpr std::size_t kMost = 4 << 20;
+  Spilling spilling;
+  spilling.limits.spill.max_bytes = kMost;
+  const auto answer = run_sandboxed(spilling.limits, [](const ProgressReport&) -> Expected<Bytes> {
+    const Bytes first(3 << 20, 7), second(3 << 20, 8);
+    const bool fits = spill_capacity() == kMost && spilled_bytes() == first.size();
+    return Bytes{static_cast<std::uint8_t>(fits && first.back() == 7 && second.back() == 8)};
+  });
+  ASSERT_TRUE(answer) << answer.error().message;
+  EXPECT_EQ(*answer, Bytes{1});
+}
+
 TEST(Spill, AnUnusableFolderIsNamed) {
   const SandboxLimits limits{.spill = {.folder = "/proc"}};
   const auto answer = run_sandboxed(limits, [](const auto&) { return Bytes{}; });
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().code, ErrorCode::kIo);
-  EXPECT_THAT(answer.error().message, testing::HasSubstr("cannot make a working file in /proc"));
+  EXPECT_THAT(answer.error().message, ::testing::HasSubstr("cannot make a working file in /proc"));
 }
 
 TEST(Spill, ADiskThatFillsUpIsReported) {
@@ -153,7 +166,7 @@ TEST(Spill, ADiskThatFillsUpIsReported) {
   });
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().code, ErrorCode::kIo);
-  EXPECT_THAT(answer.error().message, testing::HasSubstr("free some space and try again"));
+  EXPECT_THAT(answer.error().message, ::testing::HasSubstr("free some space and try again"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using Bytes = std::vector<std::uint8_t>;
 // Returns a model of many small regions and levels. Some levels are on coarser lattices.
 const Bytes& whole() {
   static const Bytes file = [] {
-    const auto mesh = *write_mesh(torus(120, 60), MeshFormat::kPly, "mm");
+    const auto mesh = *write_mesh(torus(120, 60), MeshFormat::kPly, {.unit = "mm"});
     return build_model(mesh, {.bits = 14, .region_vertices = 400}, {}).value().file;
   }();
   return file;
@@ -28,7 +28,7 @@ Bytes shown_at(const Bytes& file, std::uint32_t level) {
   Refiner refiner = open_model(file).value();
   const auto read = chunks_of(refiner.manifest(), file);
   EXPECT_TRUE(refine(refiner, WantLevel{level}, read));
-  return write_mesh(refiner.display_mesh(), MeshFormat::kPly, "mm").value();
+  return write_mesh(refiner.display_mesh(), MeshFormat::kPly, {.unit = "mm"}).value();
 }
 
 TEST(CutModel, ShowsAtEachLevelWhatTheWholeShowsThere) {

@@ -7,7 +7,9 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <utility>
 
+#include "server/store/file_object.h"
 #include "support/held_lock.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
@@ -21,6 +23,7 @@ class FileStoreTest : public testing::Test {
  protected:
   test::TemporaryFolder folder_;
   FileStore store_ = FileStore::open(folder_.path() / "objects").value();
+  const FileStore other_ = FileStore::open(folder_.path() / "objects").value();
   const std::vector<std::uint8_t> bytes_ = test::to_bytes("an object");
   const Sha256 name_ = sha256(bytes_);
 
@@ -77,6 +80,61 @@ TEST_F(FileStoreTest, ADamagedObjectIsReplacedWhenPutAgain) {
   fs::resize_file(path(), 3);
   EXPECT_TRUE(store_.put(name_, bytes_).value());
   EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, ADamagedObjectIsNotOpened) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  ASSERT_TRUE(store_.open(name_));
+  std::fstream(path(), std::ios::in | std::ios::out).seekp(3).put('0');
+  for (const FileStore* store : {&std::as_const(store_), &other_}) {
+    const auto opened = store->open(name_);
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::kState);
+    EXPECT_NE(opened.error().message.find(to_hex(name_)), std::string::npos);
+  }
+  ASSERT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, ACheckTellsIntactDamagedAndMissingObjectsApart) {
+  std::uint64_t read = 0;
+  const auto check = [&] {
+    return store_.check(name_, [&](std::uint64_t bytes) { return read += bytes, true; }).value();
+  };
+  EXPECT_EQ(check(), ObjectState::kMissing);
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  EXPECT_EQ(check(), ObjectState::kIntact);
+  EXPECT_EQ(read, bytes_.size());
+  std::ofstream(path(), std::ios::app) << "s";
+  EXPECT_EQ(check(), ObjectState::kDamaged);
+  std::ofstream(path()) << "";
+  EXPECT_EQ(check(), ObjectState::kDamaged);
+}
+
+TEST_F(FileStoreTest, ACheckEndsWhenItsCallerStopsIt) {
+  const std::vector<std::uint8_t> long_bytes(3 * kPieceBytes, 'x');
+  ASSERT_TRUE(store_.put(sha256(long_bytes), long_bytes));
+  int pieces = 0;
+  const auto state = store_.check(sha256(long_bytes), [&](std::uint64_t) { return ++pieces < 2; });
+  EXPECT_EQ(pieces, 2);
+  ASSERT_FALSE(state);
+  EXPECT_EQ(state.error().code, ErrorCode::kIo);
+}
+
+TEST(CheckedObjects, ForgetsAFileThatChangedAndAllFilesWhenItIsFull) {
+  CheckedObjects checked;
+  const FileStamp stamp{.inode = 1, .size = 5};
+  checked.add(Sha256{1}, stamp);
+  EXPECT_TRUE(checked.contains(Sha256{1}, stamp));
+  EXPECT_FALSE(checked.contains(Sha256{2}, stamp));
+  EXPECT_FALSE(checked.contains(Sha256{1}, FileStamp{.inode = 2, .size = 5}));
+  EXPECT_FALSE(
+      checked.contains(Sha256{1}, FileStamp{.inode = 1, .size = 5, .changed = {.tv_sec = 1}}));
+  for (std::size_t i = 1; i <= CheckedObjects::kMost; ++i)
+    checked.add(Sha256{0, static_cast<std::uint8_t>(i >> 16), static_cast<std::uint8_t>(i >> 8),
+                       static_cast<std::uint8_t>(i)},
+                stamp);
+  EXPECT_FALSE(checked.contains(Sha256{1}, stamp));
 }
 
 TEST_F(FileStoreTest, ASweepRemovesHalfWrittenFiles) {

@@ -95,6 +95,37 @@ TEST_F(Publish, BaseAndChunksAreFoundByHashBeforeTheModelWasOpened) {
   EXPECT_EQ(served(sha256(test::to_bytes("another"))), Bytes{});
 }
 
+TEST_F(Publish, AtlasAndPicturesAreFoundByHashBeforeAndAfterTheModelWasOpened) {
+  const auto textured = test::tiny_pmesh("the base", "a chunk", {"a picture", "a larger picture"});
+  ASSERT_TRUE(publish(store_, *catalogue_, textured.bytes, {}));
+  for (const char* opened : {"before", "after"}) {
+    for (const char* block : {"the atlas", "a picture", "a larger picture", "a chunk"})
+      EXPECT_EQ(served(sha256(test::to_bytes(block))), test::to_bytes(block)) << opened;
+  }
+  EXPECT_EQ(served(sha256(test::to_bytes("another picture"))), Bytes{});
+}
+
+TEST_F(Publish, ALimitedModelKeepsTheAtlasAndThePicturesOfTheHead) {
+  const auto textured = test::tiny_pmesh("the base", "a chunk", {"a picture", "a larger picture"});
+  const ModelId id = publish(store_, *catalogue_, textured.bytes, {}).value().id;
+  const auto limit = [&](std::optional<PublicPart> part) {
+    ModelRecord model = catalogue_->find(id).value().value();
+    model.public_part = part;
+    ASSERT_TRUE(change(store_, *catalogue_, model));
+  };
+  limit(PublicPart{.max_level = 0});
+  const auto part = models_.find(id).value();
+  EXPECT_EQ(part->manifest().texture.pictures.size(), 1u);
+  for (const char* kept : {"the base", "the atlas", "a picture"})
+    EXPECT_EQ(served(sha256(test::to_bytes(kept))), test::to_bytes(kept));
+  for (const char* hidden : {"a chunk", "a larger picture"})
+    EXPECT_EQ(served(sha256(test::to_bytes(hidden))), Bytes{}) << hidden;
+  const auto whole = models_.find_whole(id).value();
+  EXPECT_EQ(whole->read(whole->whole()).value(), textured.bytes);
+  limit(PublicPart{.max_level = 1});
+  EXPECT_EQ(served(sha256(test::to_bytes("a larger picture"))), test::to_bytes("a larger picture"));
+}
+
 TEST_F(Publish, AChunkOfAModelThatIsReplacedMeanwhileIsThatChunkOrNone) {
   const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value().id;
   const auto same_chunk = test::tiny_pmesh("a longer base", "a chunk").bytes;
@@ -120,7 +151,7 @@ TEST_F(Publish, ADamagedFileIsServedWholeOnceItWasPublishedAgain) {
   std::fstream(path, std::ios::in | std::ios::out | std::ios::ate | std::ios::binary)
       .seekp(-1, std::ios::end)
       .put('!');
-  EXPECT_NE(served(chunk), test::to_bytes("a chunk"));
+  EXPECT_EQ(models_.find_chunk(chunk).error().code, ErrorCode::kState);
   EXPECT_EQ(publish(store_, *catalogue_, file_.bytes, {}).value().id, id);
   EXPECT_EQ(served(chunk), test::to_bytes("a chunk"));
 }
@@ -173,6 +204,16 @@ TEST_F(Publish, AnObjectThatLosesItsNameIsKeptForTheGracePeriod) {
 TEST_F(Publish, ADamagedChunkIsRefusedAndNoModelAppears) {
   file_.bytes.back() ^= 1;
   const auto id = publish(store_, *catalogue_, file_.bytes, {});
+  ASSERT_FALSE(id);
+  EXPECT_EQ(id.error().code, ErrorCode::kBadInput);
+  EXPECT_EQ(model_count(), 0u);
+  EXPECT_EQ(object_count(), 0u);
+}
+
+TEST_F(Publish, ADamagedPictureIsRefusedAndNoModelAppears) {
+  auto textured = test::tiny_pmesh("the base", "a chunk", {"a picture", "a larger picture"});
+  textured.bytes.back() ^= 1;
+  const auto id = publish(store_, *catalogue_, textured.bytes, {});
   ASSERT_FALSE(id);
   EXPECT_EQ(id.error().code, ErrorCode::kBadInput);
   EXPECT_EQ(model_count(), 0u);

@@ -39,6 +39,9 @@ class WatchedStore final : public ObjectStore {
     before_opening();
     return store_.open(name);
   }
+  Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const override {
+    return store_.check(name, on_piece);
+  }
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override {
     return store_.size_of(name);
   }
@@ -103,9 +106,15 @@ TEST_F(PublishedModelsTest, ACachedManifestCountsAndOneWithoutSpaceIsNotKept) {
   const auto model = models_.find(add("one")).value();
   const std::uint64_t before = models_.bytes();
   models_.set_capacity(before + 2'000);
-  models_.keep_manifest(model, {std::string(3'000, ' '), ""});
+  const auto keep = [&](std::size_t text, std::size_t gzip) {
+    models_.keep_manifest(model, std::make_shared<const Document>(Document{
+                                     std::string(text, ' '), "", std::vector<std::uint8_t>(gzip)}));
+  };
+  keep(3'000, 0);
   EXPECT_FALSE(model->kept_manifest());
-  models_.keep_manifest(model, {std::string(1'000, ' '), ""});
+  keep(1'000, 2'000);
+  EXPECT_FALSE(model->kept_manifest());
+  keep(500, 500);
   EXPECT_TRUE(model->kept_manifest());
   EXPECT_GE(models_.bytes(), before + 1'000);
   models_.set_capacity(before);
@@ -209,6 +218,53 @@ TEST_F(PublishedModelsTest, AFileThatIsLostIsAFault) {
   const ModelId id = add("one");
   ASSERT_TRUE(store_.remove(catalogue_->find(id).value()->file));
   EXPECT_EQ(models_.find(id).error().code, ErrorCode::kState);
+}
+
+TEST_F(PublishedModelsTest, ADamagedFileIsReadOnceAndServedAgainOnceItIsMended) {
+  const ModelId id = add("one"), other = add("two");
+  const Sha256 file = catalogue_->find(id).value()->file;
+  const auto bytes = store_.open(file).value()->read(0, catalogue_->find(id).value()->file_bytes);
+  ASSERT_TRUE(store_.remove(file));
+  EXPECT_EQ(models_.find(id).error().code, ErrorCode::kState);
+  EXPECT_EQ(models_.damaged(), std::vector{file});
+  store_.opened = 0;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(models_.find_chunk(name_of("one")).error().code, ErrorCode::kState);
+    EXPECT_EQ(models_.find_whole(id).error().code, ErrorCode::kState);
+  }
+  EXPECT_EQ(store_.opened, 0);
+  EXPECT_TRUE(get(other));
+  ASSERT_TRUE(store_.put(file, *bytes));
+  ASSERT_TRUE(catalogue_->set_state(id, ModelState::kPublished));
+  EXPECT_TRUE(get(id));
+  EXPECT_TRUE(models_.damaged().empty());
+}
+
+TEST_F(PublishedModelsTest, AMendedFileIsServedAtOnceThoughTheCacheIsOlder) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  const ModelId id = add("one");
+  const Sha256 file = catalogue_->find(id).value()->file;
+  const auto bytes = store_.open(file).value()->read(0, catalogue_->find(id).value()->file_bytes);
+  ASSERT_TRUE(store_.remove(file));
+  EXPECT_EQ(lazy.find(id).error().code, ErrorCode::kState);
+  ASSERT_TRUE(store_.put(file, *bytes));
+  ASSERT_TRUE(catalogue_->set_state(id, ModelState::kPublished));
+  EXPECT_TRUE(lazy.find(id).value());
+}
+
+TEST_F(PublishedModelsTest, AFileThatIsFoundDamagedIsServedNoMore) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  const ModelId id = add("one"), other = add("two");
+  ASSERT_TRUE(lazy.find(id).value() && lazy.find(other).value());
+  ASSERT_TRUE(lazy.cached_chunk(name_of("one")));
+  const Sha256 file = catalogue_->find(id).value()->file;
+  lazy.set_damaged(file);
+  EXPECT_EQ(lazy.cached(id), nullptr);
+  EXPECT_FALSE(lazy.cached_chunk(name_of("one")));
+  EXPECT_EQ(lazy.find(id).error().code, ErrorCode::kState);
+  EXPECT_TRUE(lazy.cached(other));
+  lazy.set_intact(file);
+  EXPECT_TRUE(lazy.find(id).value());
 }
 
 TEST_F(PublishedModelsTest, TheCatalogueIsAskedInTheBackground) {

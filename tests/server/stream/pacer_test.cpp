@@ -197,8 +197,8 @@ class SharedQueue {
       member.pacer.know_delay(Pacer::Duration(kDelay));
   }
 
-  // Simulates until the time `until`. Three of four connections begin in the first two seconds. The
-  // others begin when the first ones have filled the queue.
+  // Simulates until the time `until`. Three quarters of the connections begin in the first two
+  // seconds. The others begin when the first ones have filled the queue.
   void run(double until) {
     for (; now_ < until; now_ += 0.001) {
       for (; !queue_.empty() && queue_.top().at <= now_; queue_.pop())
@@ -229,7 +229,7 @@ class SharedQueue {
     double at;
     std::size_t member;
     std::uint64_t bytes;
-    // the earliest packet is on top
+    // The priority queue has the earliest packet on top.
     bool operator<(const Packet& other) const { return at > other.at; }
   };
 
@@ -272,7 +272,8 @@ void PrintTo(const CrowdCase& one, std::ostream* out) {
 
 class PacerCrowdTest : public ::testing::TestWithParam<CrowdCase> {};
 
-// The first 20 s are twice the interval at which the pacer measures the link's delay again.
+// Checks the shares only after 20 s, twice the interval at which the pacer measures the link's
+// delay again.
 TEST_P(PacerCrowdTest, ComesToEqualShares) {
   SharedQueue queue(GetParam().members, GetParam().rate);
   queue.run(20);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests requests for `seconds` over a slow link. The bytes that the server promised must arrive in
-// time.
+// Tests WantSeconds over a slow link: a client asks for the detail that can arrive within a time.
+// The server promises a number of bytes, which must arrive within that time.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -62,7 +62,7 @@ class PromiseTest : public ::testing::Test {
     }
   }
 
-  // Returns the bytes of the chunks that have arrived whole by the time `by`, plus kHeadBytes.
+  // Returns the bytes of the chunks that have arrived completely by the time `by`, plus kHeadBytes.
   std::uint64_t held(std::uint16_t model, double by) const {
     std::uint64_t bytes = kHeadBytes;
     for (const auto& [at, slice] : arrived) {
@@ -79,8 +79,8 @@ class PromiseTest : public ::testing::Test {
     return bytes;
   }
 
-  // Expects that the server has kept its promises. Checks those from the time `from` on that were
-  // made after the connection was measured.
+  // Expects that the server has kept the promises that it made from the time `from` on. Skips
+  // promises made before the connection's rate was measured.
   void expect_kept(double from, double times = 1.05) const {
     std::size_t checked = 0;
     for (const auto& [at, promise] : said) {
@@ -130,7 +130,7 @@ class PromiseTest : public ::testing::Test {
   }
 
   std::deque<Slice> on_its_way;
-  double left = 0;  // bytes of the first slice still on the way
+  double left = 0;  // bytes of the first slice that have not arrived yet
 };
 
 TEST_F(PromiseTest, IsKeptOverAFastAndOverASlowLink) {

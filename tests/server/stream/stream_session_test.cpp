@@ -41,6 +41,7 @@ class ThrowingHost : public StreamHost {
     co_return StreamedModel();
   }
   asio::awaitable<bool> is_current(StreamedModel) override { co_return true; }
+  void shows(std::vector<StreamedModel>) override {}
   void on_drain(std::function<void()>) override {}
   void waits_for_peer(bool) override {}
   void sent(std::uint64_t) override {
@@ -77,7 +78,8 @@ class WebsocketTest : public ::testing::TestWithParam<bool> {
     return client;
   }
 
-  // Expects that serve_stream() returns, and that nothing is left that could use the socket.
+  // Expects that serve_stream() returns, that nothing can use the socket any more, and that the
+  // only fault is the std::bad_alloc of the host.
   void expect_end() {
     ASSERT_EQ(ended.wait_for(std::chrono::seconds(20)), std::future_status::ready);
     EXPECT_NO_THROW(ended.get());

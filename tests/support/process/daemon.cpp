@@ -150,7 +150,8 @@ Daemon::~Daemon() {
   if (child_ > 0) {
     signal(SIGKILL);
     wait_for(child_);
-    // Reading must not block: children of the daemon may still hold the other end of the pipe open.
+    // Reading must not block, because children of the daemon may still hold the write end of the
+    // pipe open.
     ::fcntl(pipe_, F_SETFL, O_NONBLOCK);
     while (read_some(pipe_, printed_)) {
     }

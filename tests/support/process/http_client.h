@@ -43,7 +43,7 @@ class HttpClient {
   // response.
   HttpAnswer get(const std::string& target, const std::string& fields = "",
                  const std::string& method = "GET");
-  bool is_closed();       // waits for bytes or the end; returns true at the end
+  bool is_closed();       // waits for bytes or the end of the stream; true at the end
   bool is_reset() const;  // waits for a reset, without reading; returns false after 20 s
 
   std::string read_exactly(std::size_t count);
@@ -52,10 +52,10 @@ class HttpClient {
   int socket() const { return socket_; }
 
  private:
-  virtual ssize_t read_some(char* bytes, std::size_t size);  // like recv(2) and send(2)
+  virtual ssize_t read_some(char* bytes, std::size_t size);  // reads like recv(2)
   virtual ssize_t write_some(const char* bytes, std::size_t size);
   void connect(const void* address, std::size_t size);
-  bool fill();  // returns false at the end of the stream
+  bool fill();  // reads more bytes; returns false at the end of the stream
 
   int socket_;
   std::string buffer_;

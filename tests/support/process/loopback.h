@@ -12,7 +12,8 @@ namespace vitrine::test {
 
 sockaddr_in loopback(std::uint16_t port);
 
-// Returns a connection that sends without delay (TCP_NODELAY). Throws if no program accepts.
+// Returns a connection that sends without delay (TCP_NODELAY). Throws if no program listens on the
+// port.
 FileDescriptor connect_to(std::uint16_t port);
 
 }  // namespace vitrine::test

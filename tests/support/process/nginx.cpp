@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* kProgram = "/usr/sbin/nginx";
 
-// Binds the port before nginx starts, so that the port is free and early clients wait. nginx
-// inherits the socket, as it would from an older nginx that it replaces.
+// Binds the port before nginx starts. The port is then certainly free, and clients that connect
+// early wait. nginx inherits the socket, as it would from an older nginx that it replaces.
 int listening_socket(std::uint16_t& port) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};

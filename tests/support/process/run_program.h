@@ -13,7 +13,7 @@ struct ProgramResult {
   std::string errors;  // stderr
 };
 
-// `words` are the program and its arguments. Its standard input is empty.
+// `words` are the program and its arguments. The program's standard input is empty.
 ProgramResult run_program(const std::vector<std::string>& words);
 
 }  // namespace vitrine::test

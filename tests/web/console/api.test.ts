@@ -9,8 +9,8 @@ interface Asked {
 }
 
 /**
- * Replaces `fetch`. Each request gets the next of `answers`: a response, an error as from a broken connection, or no
- * answer ("never"). Returns a list to which every request is added.
+ * Replaces `fetch`. Each request gets the next element of `answers`: a response, an error like that
+ * of a broken connection, or no response ("never"). Returns a list to which every request is added.
  */
 function network(...answers: (Response | Error | "never")[]): Asked[] {
   const asked: Asked[] = [];
@@ -42,7 +42,8 @@ test("an emergency stop lets go of all that holds a connection, and is not let g
   expect((await Promise.allSettled(held)).map(({ status }) => status)).toEqual(["rejected", "rejected"]);
   expect(asked[2]?.path).toBe("/api/v1/scanners/a/stop");
   network(json({ jobs: [] }));
-  expect(await api.get("/jobs", never)).toEqual({ jobs: [] }); // the next request is not aborted
+  // The abort of the first request must not affect the next request of the same client.
+  expect(await api.get("/jobs", never)).toEqual({ jobs: [] });
 });
 
 test("what may have begun is asked for under the same key, until there is an answer", async () => {

@@ -3,10 +3,10 @@ import { LiveJobs, type JobSource } from "@console/live-jobs.ts";
 import type { Job, JobState } from "@console/types.ts";
 
 const job = (id: string, state: JobState): Job => ({
-  id, state, kind: "publish", stage: null, progress: 0, eta: null, error: null, note: null, scanner: null, scan: null, model: null, created: "", ended: null,
+  id, state, kind: "publish", stage: null, progress: 0, eta: null, error: null, note: null, scanner: null, scan: null, model: null, repairs: [], created: "", ended: null,
 });
 
-/** A fake daemon. Tests send states on a job's event stream with `open.get(id).tell(state)`. */
+/** A fake daemon. `open.get(id).tell(state)` sends a state on the event stream of the job `id`. */
 class Played implements JobSource {
   readonly open = new Map<string, { tell: (next: Job) => void; signal: AbortSignal }>();
   constructor(public jobs: Job[]) {}

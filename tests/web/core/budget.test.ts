@@ -2,10 +2,10 @@
 import { Budget } from "@core/budget.ts";
 
 const a = {}, b = {}, c = {};
-const amount = (triangles: number) => ({ triangles, bytes: 10 * triangles });
+const amount = (triangles: number) => ({ triangles, bytes: 10 * triangles, texels: 100 * triangles });
 
 describe("Budget", () => {
-  test("has no end unless one is set", () => expect(new Budget().room(a)).toEqual({ triangles: Infinity, bytes: Infinity }));
+  test("has no end unless one is set", () => expect(new Budget().room(a)).toEqual({ triangles: Infinity, bytes: Infinity, texels: Infinity }));
 
   test("gives a model alone all of it", () => expect(new Budget(amount(100)).room(a)).toEqual(amount(100)));
 

@@ -17,20 +17,23 @@ const noParents = (count: number) => Uint32Array.from({ length: count }, (_, i) 
 
 type Way = ReturnType<Shown["change"]>;
 
-/** A copy of the surface, as the page has it. take() applies all pieces of a change. */
+/** A copy of the surface, as a page keeps it. take() applies all pieces of a change to the copy. */
 class Mirror {
   positions = new Float32Array(3 * 20_000);
   normals = new Int16Array(4 * 20_000);
   indices = new Uint32Array(3 * 20_000);
   fromPositions = new Float32Array(4 * 20_000);
   fromNormals = new Int16Array(4 * 20_000);
+  coordinates = new Float32Array(2 * 20_000);
+  fromCoordinates = new Float32Array(2 * 20_000);
 
   take({ pieces }: Way): this {
     const buffer = new ArrayBuffer(kBlockBytes);
     for (const { part, first, count, write } of pieces) {
       write(buffer);
       if (part === "colour") throw new Error("there are none");
-      const values = this[part], width = part.startsWith("from") || part === "normals" ? 4 : 3;
+      const values = this[part];
+      const width = part.endsWith("oordinates") ? 2 : part.startsWith("from") || part === "normals" ? 4 : 3;
       values.set(new (values.constructor as Float32ArrayConstructor)(buffer, 0, width * count), width * first);
     }
     return this;
@@ -84,7 +87,8 @@ describe("Shown", () => {
   test("lets a new vertex part from its nearest ancestor that was shown", () => {
     const shown = new Shown();
     shown.change(surface(3, () => 5), noParents(3), false);
-    // Vertex 3 was split from 1, vertex 4 from 3; vertex 5 was inserted.
+    // Vertex 3 was split from vertex 1, and vertex 4 from vertex 3. Vertex 5 belongs to an inserted
+    // component.
     const parents = Uint32Array.of(0, 1, 2, 1, 3, 5);
     const { fromPositions } = new Mirror().take(shown.change(surface(6), parents, false));
     const from = Array.from({ length: 6 }, (_, i) => [...fromPositions.subarray(4 * i, 4 * i + 4)]);
@@ -96,5 +100,22 @@ describe("Shown", () => {
     shown.change(surface(3, () => 5), noParents(3), false);
     const { fromPositions, positions } = new Mirror().take(shown.change(surface(3), noParents(3), true));
     expect([fromPositions[1], fromPositions[5]]).toEqual([positions[1], positions[4]]);
+  });
+
+  test("lets the texture coordinates of a new vertex part from those of its ancestor", () => {
+    const shown = new Shown(), mirror = new Mirror();
+    const at = (count: number, u: number) => ({ ...surface(count), coordinates: Float32Array.from({ length: 2 * count }, (_, i) => i + u) });
+    mirror.take(shown.change(at(4, 0), noParents(4), false));
+    expect([...mirror.coordinates.subarray(0, 8)]).toEqual([0, 1, 2, 3, 4, 5, 6, 7]);
+    mirror.take(shown.change(at(5, 0.5), Uint32Array.of(0, 1, 2, 3, 2), false));
+    expect([...mirror.coordinates.subarray(4, 10)]).toEqual([4.5, 5.5, 6.5, 7.5, 8.5, 9.5]);
+    expect([...mirror.fromCoordinates.subarray(4, 10)]).toEqual([4, 5, 6, 7, 4, 5]);
+  });
+
+  test("finds a change of texture coordinates alone", () => {
+    const shown = new Shown();
+    const at = (u: number) => ({ ...surface(3), coordinates: new Float32Array(6).fill(u) });
+    shown.change(at(0), noParents(3), false);
+    expect(places(shown.change(at(1), noParents(3), false), "coordinates")).toEqual([[0, 3]]);
   });
 });

@@ -38,11 +38,29 @@ describe("FileSource", () => {
   test("takes parts by Range where the host knows it", async () => {
     answer = withRange;
     const source = new FileSource(url());
-    expect(await source.head(never)).toEqual(file.slice(0, 32768));
+    expect(await source.head(never)).toEqual(file.slice(0, 1024));
     expect(await source.getBytes({ offset: 50_000, length: 10 }, never)).toEqual(file.slice(50_000, 50_010));
-    // These bytes have arrived with the head, so this call sends no request.
+    // Sends no request, because these bytes have already arrived with the head.
     expect(await source.getBytes({ offset: 32_758, length: 10 }, never)).toEqual(file.slice(32_758, 32_768));
     expect(ranges).toEqual(["bytes=0-32767", "bytes=50000-50009"]);
+  });
+
+  test("uses the start of the file before the first response has ended", async () => {
+    let rest: () => void = () => undefined;
+    answer = (range, response) => {
+      if (ranges.length > 1) return withRange(range, response);
+      response.writeHead(206, { "Content-Range": `bytes 0-32767/${file.length}` });
+      response.write(file.subarray(0, 3000));
+      rest = () => response.end(file.subarray(3000, 32_768));
+    };
+    const source = new FileSource(url());
+    expect(await source.head(never)).toEqual(file.slice(0, 1024));
+    expect(await source.getBytes({ offset: 1024, length: 1976 }, never)).toEqual(file.slice(1024, 3000));
+    expect(ranges.length).toBe(1);
+    const across = source.getBytes({ offset: 1024, length: 40_000 }, never);
+    rest();
+    expect(await across).toEqual(file.slice(1024, 41_024));
+    expect(ranges).toEqual(["bytes=0-32767", "bytes=32768-41023"]);
   });
 
   test("takes parts of a download still in progress if the host ignores Range", async () => {
@@ -53,7 +71,7 @@ describe("FileSource", () => {
       rest = () => response.end(file.subarray(60_000));
     };
     const source = new FileSource(url());
-    expect(await source.head(never)).toEqual(file.slice(0, 32768));
+    expect(await source.head(never)).toEqual(file.slice(0, 1024));
     expect(await source.getBytes({ offset: 32_768, length: 20_000 }, never)).toEqual(file.slice(32_768, 52_768));
     const last = source.getBytes({ offset: 90_000, length: 10_000 }, never);
     rest();

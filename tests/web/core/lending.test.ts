@@ -2,7 +2,10 @@
 import { Lending } from "@core/lending.ts";
 import { settle } from "../support/fake_model.ts";
 
-/** Borrows all buffers. Returns them and the promise of one more, which waits until a buffer is returned. */
+/**
+ * Borrows all buffers. Returns them, and the promise of one more buffer, which resolves when a
+ * buffer is returned.
+ */
 async function exhaust(lending: Lending): Promise<[ArrayBuffer[], Promise<ArrayBuffer | undefined>]> {
   const lent: ArrayBuffer[] = [];
   for (;;) {

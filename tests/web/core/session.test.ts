@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Session } from "@core/session.ts";
 import { DamagedError, ModelError, UnreachableError } from "@core/types.ts";
-import { ControlledSource, FakeDecoder, RecordingSink, fakeInfo, kHeader, settle } from "../support/fake_model.ts";
+import {
+  ControlledSource, FakeDecoder, RecordingSink, fakeInfo, kAtlas, kBase, kHeader, kPicture, settle, textured,
+} from "../support/fake_model.ts";
 
-const base = { positions: new Int32Array(), faces: new Uint32Array(), attributes: new Int32Array() };
 
-function setUp(chunks: number, headBytes?: number) {
+function setUp(chunks: number, headBytes?: number, info = fakeInfo(chunks)) {
   const source = new ControlledSource(headBytes);
-  const decoder = new FakeDecoder(fakeInfo(chunks));
+  const decoder = new FakeDecoder(info);
   const sink = new RecordingSink();
   const waits: number[] = [];
   let go: () => void = () => undefined;
   const wait = (milliseconds: number) => new Promise<void>((resolve) => (waits.push(milliseconds), (go = resolve)));
-  const session = new Session(source, decoder, async () => base, sink, new AbortController(), wait);
+  const session = new Session(source, decoder, sink, new AbortController(), wait);
   return { source, decoder, sink, session, waits, go: () => go() };
 }
 
@@ -99,7 +100,7 @@ describe("Session", () => {
     sink.triangles.length = 0;
     expect(await session.refine({ level: 1 })).toBe(true);
     expect(decoder.applied).toEqual([0]);
-    expect(sink.triangles).toEqual([200]); // the base mesh is not shown in between
+    expect(sink.triangles).toEqual([200]); // the base mesh alone is never shown
     expect(await session.refine({ level: 3 })).toBe(true);
     expect(source.asked).toEqual([0, 1, 2]);
     expect(sink.triangles.at(-1)).toBe(400);
@@ -214,5 +215,89 @@ describe("Session", () => {
     expect(source.closed).toBe(true);
     expect(source.find(0).signal.aborted).toBe(true);
     expect(await done).toBe(false);
+  });
+});
+
+describe("Session of a textured model", () => {
+  async function openedTextured() {
+    const parts = setUp(3, kHeader + kBase + kAtlas + kPicture, textured(fakeInfo(3)));
+    await parts.session.open();
+    return parts;
+  }
+
+  test("shows the picture of the head before the base mesh", async () => {
+    const { source, sink, decoder } = await openedTextured();
+    expect(decoder.atlasBytes).toBe(kAtlas);
+    expect(sink.pictures).toEqual([{ index: 0, side: 256, bytes: kPicture, surfaces: 0 }]);
+    expect(source.requests).toEqual([]);
+  });
+
+  test("fetches the atlas and the first picture with the rest of the head", async () => {
+    const { source, session, sink } = setUp(1, kHeader, textured(fakeInfo(1)));
+    const open = session.open(), rest = kBase + kAtlas + kPicture;
+    await settle();
+    expect(source.requests.map(({ range }) => range)).toEqual([{ offset: kHeader, length: rest }]);
+    source.requests[0]?.answer(new Uint8Array(rest));
+    await open;
+    expect(sink.pictures).toHaveLength(1);
+  });
+
+  test("fetches a finer picture by its hash and place", async () => {
+    const { source, session, sink } = await openedTextured();
+    const shown = session.showPicture(2);
+    expect(source.requests.map(({ range }) => range)).toEqual([{ offset: 70, length: kPicture, sha256: "102" }]);
+    source.requests[0]?.answer(new Uint8Array(kPicture));
+    await shown;
+    expect(sink.pictures.at(-1)).toEqual({ index: 2, side: 4096, bytes: kPicture, surfaces: 1 });
+  });
+
+  test("shows a picture in other sizes without fetching it again", async () => {
+    const { source, session, sink } = await openedTextured();
+    const shown = session.showPicture(2, 1448);
+    source.requests[0]?.answer(new Uint8Array(kPicture));
+    await shown;
+    await session.showPicture(2, 2048);
+    expect(sink.pictures.slice(1).map(({ index, side }) => [index, side])).toEqual([[2, 1448], [2, 2048]]);
+    expect(source.requests).toHaveLength(1);
+  });
+
+  test("shows the picture of the head again without fetching it", async () => {
+    const { source, session, sink } = await openedTextured();
+    await session.showPicture(0);
+    expect(sink.pictures.map(({ index }) => index)).toEqual([0, 0]);
+    expect(source.requests).toEqual([]);
+  });
+
+  test("fetches a damaged picture once more, and shows none that stays damaged", async () => {
+    const { source, session, sink, decoder } = await openedTextured();
+    decoder.damagedPictures = [new DamagedError("torn"), new DamagedError("torn")];
+    const failed = expect(session.showPicture(1)).rejects.toThrow("torn");
+    source.requests[0]?.answer(new Uint8Array(kPicture));
+    await settle();
+    source.requests[1]?.answer(new Uint8Array(kPicture));
+    await failed;
+    expect(source.requests).toHaveLength(2);
+    expect(sink.pictures).toHaveLength(1);
+  });
+
+  test("waits with a picture for a server that is gone", async () => {
+    const { source, session, sink, waits, go } = await openedTextured();
+    const shown = session.showPicture(1);
+    source.requests[0]?.fail(new UnreachableError("gone"));
+    await settle();
+    expect(waits).toHaveLength(1);
+    go();
+    await settle();
+    source.requests[1]?.answer(new Uint8Array(kPicture));
+    await shown;
+    expect(sink.pictures.at(-1)?.index).toBe(1);
+  });
+
+  test("ends the request for a picture when it is closed", async () => {
+    const { source, session } = await openedTextured();
+    const shown = session.showPicture(1);
+    session.close();
+    await shown;
+    expect(source.requests[0]?.signal.aborted).toBe(true);
   });
 });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { StreamSource, pairs } from "@core/stream-source.ts";
 
-/** A fake WebSocket. The test acts as the server. */
+/** A fake WebSocket. The test plays the server. */
 class FakeSocket {
   static readonly OPEN = 1;
   static last: FakeSocket;
@@ -132,6 +132,14 @@ describe("StreamSource", () => {
     FakeSocket.last.done();
     expect(await bytes).toEqual(new Uint8Array([9, 9, 9]));
     expect(asked).toEqual([`http://host/api/v1/chunks/${"1".repeat(64)}`]);
+  });
+
+  test("fetches a picture over HTTP while the stream sends chunks", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 2 }, []);
+    const picture = { offset: 100, length: 3, sha256: "a".repeat(64) };
+    expect(await source.getBytes(picture, never)).toEqual(new Uint8Array([9, 9, 9]));
+    expect(asked).toEqual([`http://host/api/v1/chunks/${"a".repeat(64)}`]);
   });
 
   test("fetches over HTTP when the connection ends", async () => {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+import { PerspectiveCamera, Vector3 } from "three";
 import { fieldOfViewOf, orbitOf, targetOf } from "@element/camera.ts";
+import { fittingDistance, kFieldOfView, kViewpoint } from "@element/viewpoint.ts";
 
 const framed = { theta: 0.5, phi: 1.5, radius: 200 };
 const degree = Math.PI / 180;
@@ -32,3 +34,40 @@ test.each([
 
 test.each([[null, 35], ["auto", 35], ["20deg", 20], ["1rad", 1 / degree], ["500deg", 120], ["0deg", 1]])(
   "field-of-view %s", (words, expected) => expect(fieldOfViewOf(words, 35)).toBeCloseTo(expected, 9));
+
+describe("the distance that fits", () => {
+  const shapes: Record<string, number[]> = {
+    "a tall figure": [0, 5, 0, 0, -5, 0, 1, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, -1],
+    "a plate": [3, 0, 0, -3, 0, 0, 0, 2, 0, 0, -2, 0],
+    "a cube": [-1, 1].flatMap((x) => [-1, 1].flatMap((y) => [-1, 1].flatMap((z) => [x, y, z]))),
+    "a spear seen from its tip": [0, 0, 4, 0, 0, -4, 0, 0.1, 0, 0, -0.1, 0],
+  };
+  const cases = Object.keys(shapes).flatMap((name) => [0.5, 1, 1.8].map((aspect) => [name, aspect] as const));
+
+  /** Returns the largest part of half the view's width or height that a shape covers, seen from a direction. */
+  function filled(positions: number[], direction: Vector3, distance: number, aspect: number): number {
+    const camera = new PerspectiveCamera(kFieldOfView, aspect, 0.001, 1000);
+    camera.position.copy(direction).setLength(distance);
+    camera.lookAt(0, 0, 0);
+    camera.updateMatrixWorld();
+    let most = 0;
+    for (let i = 0; i < positions.length; i += 3) {
+      const { x, y } = new Vector3().fromArray(positions, i).project(camera);
+      most = Math.max(most, Math.abs(x), Math.abs(y));
+    }
+    return most;
+  }
+
+  test.each(cases)("keeps %s in a view of aspect %s while it turns", (name, aspect) => {
+    const shape = shapes[name] as number[], level = new Vector3(kViewpoint.x, 0, kViewpoint.z).normalize();
+    const distance = fittingDistance(shape, new Vector3(), level, aspect);
+    expect(filled(shape, level, distance, aspect)).toBeLessThan(0.8301);
+    for (let turn = 0; turn < 360; turn += 5)
+      expect(filled(shape, level.clone().applyAxisAngle(new Vector3(0, 1, 0), (turn * Math.PI) / 180), distance, aspect)).toBeLessThan(1.0001);
+  });
+
+  test.each([["a tall figure", 1.8], ["a plate", 0.5]])("lets %s fill a view of aspect %s", (name, aspect) => {
+    const shape = shapes[name] as number[], distance = fittingDistance(shape, new Vector3(), kViewpoint, aspect);
+    expect(filled(shape, kViewpoint, distance, aspect)).toBeGreaterThan(0.8);
+  });
+});

@@ -31,7 +31,9 @@ describe("a line", () => {
     line.begin(0);
     line.sample(2000, 1000);
     line.begin(5000);
-    line.sample(500, 5001); // a coarser state, then the same state as before: no bytes are downloaded
+    // A coarser state arrives, then the earlier state again. No bytes are downloaded for either of
+    // them.
+    line.sample(500, 5001);
     line.sample(2000, 5002);
     expect(line.held).toBe(2000);
     expect(line.secondsTo(4000)).toBeCloseTo(1);

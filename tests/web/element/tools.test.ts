@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Vector3 } from "three";
+import { Box3, PerspectiveCamera, Vector3 } from "three";
 import { passesHalf } from "@element/tools/announcer.ts";
 import { readAnnotations, triple } from "@element/tools/annotations.ts";
 import { rakingFrom } from "@element/tools/light.ts";
-import { apiOf, exportOf, linkTo, viewIn } from "@element/tools/links.ts";
+import { apiOf, exportOf, linkTo, settingIn } from "@element/tools/links.ts";
 import { unpackDepth } from "@element/tools/pick.ts";
+import { pixelsPerUnit, roundLength } from "@element/tools/scale-bar.ts";
 import { cuttingPlane } from "@element/tools/section.ts";
 import { anglesOf, formatView, heightOf, offsetOf, parseView, sideOf } from "@element/tools/view.ts";
 
@@ -37,17 +38,18 @@ describe("views", () => {
 describe("links", () => {
   const view = { azimuth: 30, elevation: -10, distance: 2, target: [0, 1, 0] as [number, number, number] };
 
-  test("hold a view and leave alone what else the address says", () => {
-    const link = linkTo("https://museum.example/models/ab?transport=ws#page=3&view=1,2,3,4,5,6", "", view);
-    expect(link).toBe("https://museum.example/models/ab?transport=ws#page=3&view=30.0,-10.0,2,0,1,0");
-    expect(viewIn(new URL(link).hash, "")).toEqual(view);
-    expect(viewIn(new URL(link).hash, "bust")).toBeUndefined();
+  test("hold settings and leave alone what else the address says", () => {
+    const link = linkTo("https://museum.example/models/ab?transport=ws#page=3&view=1,2,3,4,5,6&light=soft", "",
+      { view: formatView(view), light: "", section: "x,100,flip" });
+    expect(link).toBe("https://museum.example/models/ab?transport=ws#page=3&view=30.0,-10.0,2,0,1,0&section=x,100,flip");
+    expect(parseView(settingIn(new URL(link).hash, "", "view"))).toEqual(view);
+    expect(settingIn(new URL(link).hash, "bust", "view")).toBe("");
   });
 
   test("tell the elements of a page apart by their ids", () => {
-    const link = linkTo(linkTo("https://museum.example/", "bust", view), "vase", { ...view, azimuth: 5 });
-    expect(viewIn(new URL(link).hash, "bust")?.azimuth).toBe(30);
-    expect(viewIn(new URL(link).hash, "vase")?.azimuth).toBe(5);
+    const link = linkTo(linkTo("https://museum.example/", "bust", { light: "soft" }), "vase", { light: "front" });
+    expect(settingIn(new URL(link).hash, "bust", "light")).toBe("soft");
+    expect(settingIn(new URL(link).hash, "vase", "light")).toBe("front");
   });
 
   test.each([
@@ -108,4 +110,14 @@ test("only the half on the way to the whole is worth a word", () => {
 test.each([0.5, 0.25 + 1 / 65536, 0.9871234, 1 / 2 ** 24])("a depth of %s comes back from its bytes", (depth) => {
   const whole = Math.floor(depth * 2 ** 24), rest = Math.round(255 * (depth * 2 ** 24 - whole));
   expect(unpackDepth([whole >> 16, (whole >> 8) & 255, whole & 255, rest])).toBeCloseTo(depth, 8);
+});
+
+describe("a scale bar", () => {
+  test.each([[0.0199, 0.01], [3, 2], [9.99, 5], [100, 100], [1999, 1000]])("of at most %s is %s long", (most, length) => expect(roundLength(most)).toBeCloseTo(length, 10));
+
+  test("knows how large a length looks", () => {
+    const camera = new PerspectiveCamera(90);
+    camera.position.set(0, 0, 4); // a view of 90 degrees is 6 high at a distance of 3
+    expect(pixelsPerUnit(camera, new Vector3(0, 0, 1), 600)).toBeCloseTo(100);
+  });
 });

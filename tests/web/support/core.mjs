@@ -10,7 +10,6 @@ export async function loadCore(wasmPath) {
   const { outputFiles } = await require("esbuild").build({
     stdin: {
       contents: `export { Decoder } from "./decoder.ts";
-                 export { decodeBase } from "./draco.ts";
                  export { Session } from "./session.ts";`,
       resolveDir: new URL("src/core", web).pathname,
     },
@@ -21,19 +20,19 @@ export async function loadCore(wasmPath) {
   });
   const core = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
   const module = await WebAssembly.compile(await readFile(wasmPath));
-  const draco = await require("draco3d").createDecoderModule({});
-  return { ...core, module, draco };
+  return { ...core, module };
 }
 
 /**
- * Opens the model in the bytes of a whole file. Returns its decoder, which has the base mesh, and its manifest as
- * `info`.
+ * Opens a model from the bytes of a whole file. Returns a decoder that has the base mesh, and the
+ * manifest as `info`.
  */
-export async function openFile({ Decoder, decodeBase, module, draco }, file) {
+export async function openFile({ Decoder, module }, file) {
   const decoder = await Decoder.create(module);
   const info = decoder.open(file.subarray(0, decoder.headerLength(file)));
   const base = file.subarray(info.baseOffset, info.baseOffset + info.baseLength);
   decoder.checkBase(base);
-  decoder.start(decodeBase(draco, base, info));
+  const { atlasOffset = 0, atlasLength = 0 } = info.texture ?? {};
+  decoder.start(base, file.subarray(atlasOffset, atlasOffset + atlasLength));
   return { decoder, info };
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fake decoder that only records calls, and a fake source whose responses the test sends one by
-// one. With both, tests can produce every order of events without timers.
+// one. They let tests produce every order of events without timers.
 import type { ModelDecoder, Sink } from "@core/session.ts";
 import type { ByteRange, Source } from "@core/source.ts";
-import type { Change, ModelInfo, Surface, Want } from "@core/types.ts";
+import type { Change, ModelInfo, Picture, Surface, Want } from "@core/types.ts";
 
-export const kHeader = 16, kBase = 8, kChunk = 10;
+export const kHeader = 16, kBase = 8, kChunk = 10, kAtlas = 4, kPicture = 6;
 
 /** Describes a model with one region and `chunks` layers of kChunk bytes each; level i has 100 (i + 1) faces. */
 export function fakeInfo(chunks: number): ModelInfo {
@@ -22,10 +22,29 @@ export function fakeInfo(chunks: number): ModelInfo {
   };
 }
 
+/** Gives the model a texture: an atlas and one picture in the head, and two finer pictures at the end of the file. */
+export function textured(info: ModelInfo): ModelInfo {
+  const headEnd = kHeader + kBase, more = kAtlas + kPicture, picture = { role: "colour" as const, length: kPicture };
+  return {
+    ...info,
+    levels: info.levels.map((level) => ({ ...level, cumulativeBytes: level.cumulativeBytes + more })),
+    chunks: info.chunks.map((chunk) => ({ ...chunk, offset: chunk.offset + more })),
+    fileBytes: info.fileBytes + more + 2 * kPicture,
+    texture: {
+      atlasOffset: headEnd, atlasLength: kAtlas, alphaMode: "opaque", alphaCutoff: 0.5, isDoubleSided: false, isUnlit: false, inHead: 1,
+      pictures: [
+        { ...picture, side: 256, offset: headEnd + kAtlas, sha256: "100" },
+        { ...picture, side: 1024, offset: info.fileBytes + more, sha256: "101" },
+        { ...picture, side: 4096, offset: info.fileBytes + more + kPicture, sha256: "102" },
+      ],
+    },
+  };
+}
+
 export class FakeDecoder implements ModelDecoder {
   applied: number[] = [];
   starts = 0;
-  /** Chunks that count as damaged: the error of each entry is thrown once. */
+  /** Chunks that count as damaged. The error of each entry is thrown once. */
   damaged: { chunk: number; error: Error }[] = [];
   #goal = 0;
   #requested = 0;
@@ -36,7 +55,21 @@ export class FakeDecoder implements ModelDecoder {
   open = () => this.info;
   readonly parents = new Uint32Array();
   checkBase = () => undefined;
-  start = () => void ++this.starts;
+  checkAtlas = () => undefined;
+  /** Throws the errors of this list, one for each call. */
+  damagedPictures: Error[] = [];
+  atlasBytes = 0;
+
+  checkPicture(): void {
+    const error = this.damagedPictures.pop();
+    if (error) throw error;
+  }
+
+  start(_: unknown, atlas: Uint8Array): void {
+    ++this.starts;
+    this.atlasBytes = atlas.length;
+  }
+
   trim = () => undefined;
 
   want(want: Want): boolean {
@@ -121,13 +154,24 @@ export class ControlledSource implements Source {
   }
 }
 
-/** Records the surfaces shown. With `hold`, a surface counts as displayed only when the test calls release(). */
+/**
+ * Records the surfaces shown. With `hold`, a surface counts as displayed only after the test has
+ * called release().
+ */
 export class RecordingSink implements Sink {
   readonly triangles: number[] = [];
   hold = false;
   #release: (() => void) | undefined;
 
   opened = () => undefined;
+  /** Index and size of each picture, and the number of surfaces shown before it. */
+  readonly pictures: { index: number; side: number; bytes: number; surfaces: number }[] = [];
+
+  picture(index: number, _: Picture, side: number, bytes: Uint8Array): Promise<void> {
+    this.pictures.push({ index, side, bytes: bytes.length, surfaces: this.triangles.length });
+    return Promise.resolve();
+  }
+
   progress = () => undefined;
   readonly reasons: (string | undefined)[] = [];
 
@@ -143,7 +187,7 @@ export class RecordingSink implements Sink {
   }
 }
 
-/** Waits until all code has run that depends only on the event loop, not on timers or responses. */
+/** Waits until all code has run that waits only for the event loop, not for timers or responses. */
 export async function settle(): Promise<void> {
   for (let i = 0; i < 30; ++i) await new Promise((resolve) => setImmediate(resolve));
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Client of the daemon's API with an operator's token, which is sent as a bearer token only.
+// Client of the daemon's API for operators. Each request carries the operator's token as a bearer
+// token.
 import { eventData } from "./events.ts";
 import { Problem } from "./problem.ts";
-import type { Job } from "./types.ts";
+import type { Job, Scanner } from "./types.ts";
 
 const kRoot = "/api/v1";
-/** Timeout of a request, in milliseconds; long, because devices can be slow. */
+/** Timeout of a request in milliseconds. It is long, because devices can be slow. */
 const kTimeout = 60_000;
 
 interface RequestOptions {
@@ -17,10 +18,11 @@ interface RequestOptions {
 }
 
 export class Api {
-  /** Called when the daemon rejects the token, for example after it was revoked. */
+  /** Called when the daemon rejects the token, for example because the token was revoked. */
   onRefused: (problem: Problem) => void = () => undefined;
-  #rest = new AbortController(); // controller that can abort all requests except emergency stops
-  readonly #unanswered = new Map<string, string>(); // idempotency keys of requests without a response, by path and body
+  #rest = new AbortController(); // aborts all requests except emergency stops
+  // Idempotency keys of the requests that have no response yet. The map's key is path and body.
+  readonly #unanswered = new Map<string, string>();
 
   constructor(readonly token: string) {}
 
@@ -38,13 +40,16 @@ export class Api {
     return { value: (await answer.json()) as T, tag: answer.headers.get("ETag") ?? "" };
   }
 
-  /** Sends a change. With a `tag`, the daemon applies it only if the resource still has this entity tag. */
+  /** Sends a change. With a `tag`, the daemon applies the change only if the resource still has this entity tag. */
   async send<T>(method: string, path: string, body?: unknown, tag?: string): Promise<T> {
     const answer = await this.#ask(path, { method, body, headers: tag ? { "If-Match": tag } : {} });
     return (answer.status === 204 ? undefined : await answer.json()) as T;
   }
 
-  /** Starts a job. If the response gets lost, the same call reuses its idempotency key, so that the job is not started twice. */
+  /**
+   * Starts a job. If the response gets lost, repeat the same call: it reuses the idempotency key,
+   * so the job is not started twice.
+   */
   async begin<T>(path: string, body: unknown): Promise<T> {
     const order = path + JSON.stringify(body), key = this.#unanswered.get(order) ?? newKey();
     this.#unanswered.set(order, key);
@@ -62,7 +67,10 @@ export class Api {
     return (await this.#ask(path, { signal })).blob();
   }
 
-  /** Returns x, y and z in mm of a scan's points from point number `from` on, as many as fit into one response. */
+  /**
+   * Returns x, y and z in mm of a scan's points, starting at point number `from`. One response may
+   * not contain all of them.
+   */
   async points(scan: string, from: number, signal: AbortSignal): Promise<Float32Array> {
     const bytes = await (await this.#ask(`/scans/${scan}/points?from=${from}`, { signal })).arrayBuffer();
     return new Float32Array(bytes, 0, 3 * Math.floor(bytes.byteLength / 12));
@@ -75,15 +83,22 @@ export class Api {
   }
 
   /**
-   * Sends an emergency stop. First aborts all other requests, because browsers limit the number of connections per
-   * server.
+   * Sends an emergency stop and returns the scanner's state. First aborts all other requests, because browsers limit the number of
+   * connections to a server.
    */
-  async stop(scanner: string): Promise<void> {
+  async stop(scanner: string): Promise<Scanner> {
     this.#rest.abort(new DOMException("an emergency stop has priority", "AbortError"));
     this.#rest = new AbortController();
     const path = `${kRoot}/scanners/${scanner}/stop`;
     const answer = await fetch(path, { method: "POST", headers: this.headers, priority: "high", keepalive: true } as RequestInit);
     if (!answer.ok) throw await Problem.of(answer);
+    return (await answer.json()) as Scanner;
+  }
+
+  /** Switches a laser off, even while the browser leaves the page. Errors are ignored, because the daemon switches the laser off itself after a minute. */
+  putOut(scanner: string): void {
+    const headers = { ...this.headers, "Content-Type": "application/json" };
+    void fetch(`${kRoot}/scanners/${scanner}/laser`, { method: "POST", headers, body: '{"on":false}', keepalive: true }).catch(() => undefined);
   }
 
   async #ask(path: string, { method = "GET", body, headers = {}, signal, isEndless = false }: RequestOptions): Promise<Response> {

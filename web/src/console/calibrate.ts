@@ -15,8 +15,8 @@ const kPoses = 20;
 class Wizard {
   readonly #step = h("section", { class: "card wizard" });
   readonly #path: string;
-  // Job state and stage shown. Elements are replaced only if these change, because one of them may
-  // have the focus.
+  // The job's state and stage that are shown. Elements are replaced only if these change, because
+  // replacing an element with the focus would lose the focus.
   #shown = "";
 
   constructor(private readonly visit: Visit, private readonly name: string) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/console" for operators. The URL's fragment selects the page shown; all data come from the
-// daemon's API.
+// The page "/console" for operators. The URL's fragment selects the page shown. All data come from
+// the daemon's API.
 import { byId, h } from "../ui/dom.ts";
-import { language } from "../ui/texts/index.ts";
 import { Api } from "./api.ts";
 import { calibratePage } from "./calibrate.ts";
 import type { ConsolePage, Desk } from "./desk.ts";
@@ -18,14 +17,16 @@ import { scannerPage } from "./scanner.ts";
 import { scannersPage } from "./scanners.ts";
 import { newScanPage, scansPage } from "./scans.ts";
 import { forgetToken, keptToken, signedIn } from "./sign-in.ts";
+import { ScannerWatch } from "./scanner-watch.ts";
 import { EmergencyStop } from "./stop.ts";
-import { texts } from "./texts/index.ts";
+import { language, texts } from "./texts/index.ts";
 import { tokensPage } from "./tokens.ts";
 import { Uploads } from "./uploads.ts";
+import { visitsPage } from "./visits.ts";
 
 const kHome = "#/models";
 const kPages: readonly (readonly [string, ConsolePage])[] = [
-  ["models", modelsPage], ["models/:id", modelPage], ["jobs", jobsPage], ["tokens", tokensPage],
+  ["models", modelsPage], ["models/:id", modelPage], ["jobs", jobsPage], ["visits", visitsPage], ["tokens", tokensPage],
   ["scanners", scannersPage], ["scanners/:name", scannerPage], ["scanners/:name/calibrate", calibratePage],
   ["scans", scansPage], ["scans/new", newScanPage], ["scans/new/:scanner", newScanPage], ["scans/:id", scanPage],
 ];
@@ -41,7 +42,7 @@ function say(text: string): void {
 
 let visit = new AbortController();
 
-/** Shows the page that the URL's fragment selects, and ends the previous page. */
+/** Ends the previous page and shows the page that the URL's fragment selects. */
 async function go(desk: Desk): Promise<void> {
   visit.abort();
   const { signal } = (visit = new AbortController());
@@ -80,14 +81,15 @@ async function isAdmin(api: Api): Promise<boolean> {
 async function work(api: Api): Promise<unknown> {
   const end = new AbortController(), { signal } = end;
   const refused = new Promise((resolve) => (api.onRefused = resolve));
-  const desk: Desk = { api, say, jobs: new LiveJobs(api), uploads: new Uploads(api.headers) }, stop = new EmergencyStop(api);
+  const desk: Desk = { api, say, jobs: new LiveJobs(api), uploads: new Uploads(api.headers) };
+  const watch = new ScannerWatch(api), stop = new EmergencyStop(api, watch);
   const leave = h("button", { type: "button", class: "plain" }, texts.signIn.leave);
-  const pages = (["models", "scanners", "scans", "jobs"] as const).map((name) => h("a", { href: `#/${name}` }, texts[name].title));
+  const pages = (["models", "scanners", "scans", "jobs", "visits"] as const).map((name) => h("a", { href: `#/${name}` }, texts[name].title));
   nav.replaceChildren(...pages);
   byId("tools").replaceChildren(leave, stop.button);
-  top.append(stop.said);
+  top.append(watch.element, stop.said);
   void isAdmin(api).then((yes) => yes && nav.append(h("a", { href: "#/tokens" }, texts.tokens.title)), () => undefined);
-  void stop.keepLearning(signal).catch(() => undefined);
+  void watch.run(signal).catch(() => undefined);
   void desk.jobs.run(signal);
   addEventListener("hashchange", () => void go(desk), { signal });
   addEventListener("beforeunload", (event) => desk.uploads.isSending && event.preventDefault(), { signal });
@@ -98,6 +100,7 @@ async function work(api: Api): Promise<unknown> {
   visit.abort();
   nav.replaceChildren();
   byId("tools").replaceChildren();
+  watch.element.remove();
   stop.said.remove();
   forgetToken();
   return why;

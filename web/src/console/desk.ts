@@ -8,7 +8,7 @@ export interface Desk {
   api: Api;
   jobs: LiveJobs;
   uploads: Uploads;
-  /** Shows a message, which screen readers announce politely. */
+  /** Shows a message. Screen readers announce it without interrupting. */
   say(text: string): void;
 }
 
@@ -25,7 +25,7 @@ export interface Visit {
 /** Fills the view and returns the page's title, which is also its heading. */
 export type ConsolePage = (visit: Visit) => Promise<string> | string;
 
-/** Resolves after `milliseconds`; rejects if the visit ends before. */
+/** Resolves after `milliseconds`. Rejects if the operator leaves the page before. */
 export function pause(milliseconds: number, signal: AbortSignal): Promise<void> {
   return new Promise((resolve, reject) => {
     const leave = () => (clearTimeout(timer), reject(signal.reason));

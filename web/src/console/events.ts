@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads server-sent events from a response body, because EventSource cannot send a token.
+// Reads server-sent events from a response body. EventSource is not used, because it cannot send a
+// token.
 
-/**
- * Yields the data of each event as soon as the event is complete. Skips comments, which the server sends as
- * heartbeats.
- */
+/** Yields the data of each event when the event is complete. Skips comments, which the server sends as heartbeats. */
 export async function* eventData(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
   const reader = body.pipeThrough(new TextDecoderStream() as ReadableWritablePair<string, Uint8Array>).getReader();
   let text = "";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Form fields and buttons, with error messages beside them that name the field and the next step.
+// Form fields and buttons with error messages beside them. Each message names the field and the
+// next step.
 import { h } from "../ui/dom.ts";
 import { Problem, type Fault } from "./problem.ts";
 import { texts } from "./texts/index.ts";
@@ -11,7 +12,7 @@ export interface FieldOptions {
   label: string;
   hint?: string;
   value?: string | number | boolean | null | undefined;
-  type?: "text" | "number" | "checkbox" | "textarea";
+  type?: "text" | "number" | "checkbox" | "textarea" | "date";
   options?: [value: string, label: string][];
   min?: number;
   max?: number;
@@ -19,7 +20,7 @@ export interface FieldOptions {
   required?: boolean;
 }
 
-/** An element that shows an error, and is hidden while there is none. */
+/** An element that shows an error. It is hidden if there is no error. */
 export class Alert {
   readonly element = h("div", { role: "alert", class: "alert", hidden: true });
 
@@ -35,7 +36,7 @@ export class Alert {
     this.element.hidden = false;
   }
 
-  /** Runs `act`. Shows the error and returns false if it fails. */
+  /** Runs `act`. If `act` fails, shows the error and returns false. */
   async attempt(act: () => Promise<unknown>): Promise<boolean> {
     this.clear();
     try {
@@ -61,7 +62,10 @@ export function sentence(error: unknown): string {
 
 const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** Creates a button that runs `act` when clicked and is disabled meanwhile. If `act` fails, `alert` shows the error. */
+/**
+ * Creates a button that runs `act` when clicked, and is disabled until `act` is done. If `act`
+ * fails, `alert` shows the error.
+ */
 export function button(label: string, alert: Alert, act: () => Promise<unknown>, kind = ""): HTMLButtonElement {
   const made = h("button", { type: "button", class: kind }, label);
   made.addEventListener("click", async () => {
@@ -92,7 +96,8 @@ export function field({ name, label, hint, value, type = "text", options, min, m
 export type Values = Record<string, string | number | boolean | null>;
 
 /**
- * Creates a form that passes its values to `act` when submitted. If `act` fails, each fault is shown beside its field.
+ * Creates a form that passes its values to `act` when submitted. If `act` fails, shows each fault
+ * beside its field, and focuses the first of these fields.
  */
 export function form(all: HTMLElement[], submit: string, act: (values: Values) => Promise<unknown>, kind = ""): HTMLFormElement {
   const alert = new Alert(), send = h("button", { type: "submit", class: kind === "inline" ? "" : "primary" }, submit);
@@ -104,6 +109,7 @@ export function form(all: HTMLElement[], submit: string, act: (values: Values) =
     send.disabled = true;
     await act(values(made)).catch((error) => alert.show(error, place(error, made)));
     send.disabled = false;
+    controls(made).find((control) => control.ariaInvalid === "true")?.focus();
   });
   return made;
 }
@@ -124,8 +130,8 @@ function valueOf(control: Control): string | number | boolean | null {
 }
 
 /**
- * Shows the faults of a problem beside the fields that they name ("metadata.title" names the field "title"). Returns
- * the faults without such a field.
+ * Shows the faults of a problem beside the fields that they name ("metadata.title" names the field
+ * "title"). Returns the faults that name no field.
  */
 function place(error: unknown, within: HTMLFormElement): Fault[] {
   if (!(error instanceof Problem)) return [];
@@ -144,8 +150,8 @@ function mark(control: Control, fault: string): void {
 }
 
 /**
- * Asks the operator to confirm an action that cannot be undone. Resolves to true if the operator confirms. The button
- * that cancels has the focus.
+ * Asks the operator to confirm an action that cannot be undone. Resolves to true if the operator
+ * confirms. The button that cancels has the focus at first.
  */
 export function isConfirmed(question: string, explanation: string, yes: string): Promise<boolean> {
   const no = h("button", { value: "", autofocus: true }, texts.cancel);

@@ -17,22 +17,26 @@ export class JobCard {
   readonly #bar = new Bar(words.progress);
   readonly #line = h("p", { class: "quiet" });
   readonly #top = h("p", { class: "row" });
+  readonly #repairs = h("details", { class: "quiet" });
   readonly #actions = h("div", { class: "actions" });
   readonly #alert = new Alert();
   #state = "";
 
   constructor(private readonly desk: Desk) {
-    this.element.append(this.#top, this.#bar.element, this.#line, this.#actions, this.#alert.element);
+    this.element.append(this.#top, this.#bar.element, this.#line, this.#repairs, this.#actions, this.#alert.element);
   }
 
   show(job: Job): void {
     this.#bar.value = job.progress;
     this.#bar.element.hidden = isOver(job);
     this.#line.textContent = jobLine(job);
-    // The buttons are replaced only if `state` changes, because one of them may have the focus.
-    const state = `${job.state} ${job.model}`;
+    // Replaces the buttons only if `state` changes, because replacing a button with the focus would
+    // lose the focus.
+    const state = `${job.state} ${job.model} ${job.repairs.length}`;
     if (state === this.#state) return;
     this.#state = state;
+    this.#repairs.hidden = job.repairs.length === 0;
+    this.#repairs.replaceChildren(h("summary", {}, words.repairs), h("ul", {}, ...job.repairs.map((line) => h("li", {}, line))));
     this.#top.replaceChildren(h("strong", {}, words.kinds[job.kind]), jobBadge(job), h("span", { class: "quiet" }, [job.scanner, time(job.created)].filter(Boolean).join(" · ")));
     this.#actions.replaceChildren(...this.#choices(job));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the levels of a model as a curve of error over bytes and as a table.
+// Shows the levels of a model as a curve of error over bytes, and as a table.
 import { h } from "../ui/dom.ts";
 import { count, measure, size } from "../ui/texts/index.ts";
 import { table } from "./parts.ts";
@@ -34,7 +34,7 @@ function svg(tag: string, attributes: Record<string, string | number>, text = ""
   return made;
 }
 
-/** Draws the points as a curve. Both axes are logarithmic, so points with a coordinate of 0 are left out. */
+/** Draws the points as a curve. Both axes are logarithmic, so points with a coordinate of 0 cannot be shown. */
 function curve(all: PlotPoint[], label: string): SVGElement {
   const points = all.filter(({ x, y }) => x > 0 && y > 0);
   const across = scale(points.map(({ x }) => x), kLeft, kWidth - kMargin), up = scale(points.map(({ y }) => y), kHeight - kBottom, kMargin);

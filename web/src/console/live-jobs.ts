@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the states of the jobs up to date. Browsers limit the connections per server to six, so only a few jobs
-// are followed as event streams; the others are polled.
+// Keeps the states of the jobs up to date. Browsers allow only six connections to a server. So a
+// few jobs are followed as event streams, and the other jobs are polled.
 import { isOver, type Job, type JobListPage } from "./types.ts";
 
 const kFollowed = 2;
-/** Number of newest jobs that are polled. */
+/** Number of jobs that are polled. These are the newest jobs. */
 const kListed = 50;
-/** Polling interval, milliseconds. */
+/** Polling interval in milliseconds. */
 const kPause = 3000;
 
 export interface JobSource {
@@ -19,7 +19,7 @@ type Listener = () => void;
 export class LiveJobs {
   readonly #jobs = new Map<string, Job>();
   readonly #followed = new Map<string, AbortController>();
-  readonly #watched: string[] = []; // IDs of the jobs that the open page shows; they have the highest priority
+  readonly #watched: string[] = []; // IDs of the jobs on the open page, which are followed first
   readonly #listeners = new Set<Listener>();
 
   constructor(private readonly source: JobSource) {}
@@ -33,7 +33,7 @@ export class LiveJobs {
   async run(signal: AbortSignal): Promise<void> {
     signal.addEventListener("abort", () => this.#followed.forEach((one) => one.abort()));
     while (!signal.aborted) {
-      // An error is ignored, because the next poll follows soon.
+      // Ignores an error, because the next poll follows soon.
       if (!document.hidden) await this.refresh().catch(() => undefined);
       await new Promise((resolve) => setTimeout(resolve, kPause));
     }
@@ -74,7 +74,7 @@ export class LiveJobs {
     for (const listener of [...this.#listeners]) listener();
   }
 
-  /** Follows the jobs of highest priority and stops following the others. */
+  /** Follows the jobs that have the highest priority, and stops following the others. */
   #follow(): void {
     const wanted = this.#mostWanted();
     for (const [id, one] of this.#followed) if (!wanted.includes(id)) one.abort();
@@ -87,7 +87,7 @@ export class LiveJobs {
     return open.sort((a, b) => rank(a) - rank(b)).slice(0, kFollowed).map(({ id }) => id);
   }
 
-  /** Follows a job until it ends, until a job of higher priority replaces it, or until the connection is lost. */
+  /** Follows a job until the job ends, a job of higher priority replaces it, or the connection is lost. */
   async #listen(id: string): Promise<void> {
     const end = new AbortController();
     this.#followed.set(id, end);
@@ -97,7 +97,7 @@ export class LiveJobs {
         this.#tell();
       }
     } catch {
-      // An error is ignored, because the next poll gets the job's state.
+      // Ignores an error, because the next poll gets the job's state.
     } finally {
       this.#followed.delete(id);
     }

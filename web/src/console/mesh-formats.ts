@@ -4,5 +4,15 @@
 /** The formats of codec/import/formats.h, inserted by the bundler. */
 declare const MESH_FORMATS: { name: string; extension: string }[];
 
-export const kUploadNames = [...MESH_FORMATS.map(({ name }) => name), "PMESH"];
-export const kUploadSuffixes = [...MESH_FORMATS.map(({ extension }) => `.${extension}`), ".pmesh"];
+const kMeshSuffixes = MESH_FORMATS.map(({ extension }) => `.${extension}`);
+/** Packages of a model with its files (codec/package). */
+const kPackageSuffixes = [".zip", ".tar", ".gz", ".tgz"];
+
+export const kUploadNames = [...MESH_FORMATS.map(({ name }) => name), "PMESH", "ZIP", "TAR", "GZ"];
+export const kUploadSuffixes = [...kMeshSuffixes, ".pmesh", ...kPackageSuffixes];
+/** The files that a model may name. Others may be dropped, too. */
+export const kBesideTypes = [".mtl", ".bin", "image/*"];
+
+const endsInOneOf = (name: string, suffixes: string[]): boolean => suffixes.some((suffix) => name.toLowerCase().endsWith(suffix));
+export const isMeshName = (name: string): boolean => endsInOneOf(name, kMeshSuffixes);
+export const isUploadName = (name: string): boolean => endsInOneOf(name, kUploadSuffixes);

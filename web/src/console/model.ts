@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/models/{id}": a model's view, metadata, visibility and build report.
+// The page "#/models/{id}" of a model: viewer, metadata, visibility and build report.
 import { snippet } from "../ui/about.ts";
 import { copyable } from "../ui/copy.ts";
 import { h } from "../ui/dom.ts";
@@ -15,7 +15,10 @@ import { cardOf, dropZone } from "./upload-card.ts";
 const words = texts.model;
 const kTexts = ["title", "creator", "rights", "licence", "description", "date", "subject", "identifier", "publisher", "source"] as const;
 
-/** Creates a viewer that shows the model. For a draft, the viewer sends the operator's token and a hint is below it. */
+/**
+ * Creates a viewer that shows the model. For a draft, the viewer sends the operator's token, and a
+ * hint is shown below.
+ */
 export function sight({ desk }: Visit, { state, title, links }: ModelRecord): HTMLElement {
   const viewer = document.createElement("progressive-mesh"), isDraft = state !== "published";
   if (isDraft) Object.assign(viewer, { token: desk.api.token });
@@ -55,7 +58,7 @@ class ModelEditor {
     return value;
   }
 
-  /** Shows the build report; hides it if the manifest cannot be loaded. */
+  /** Shows the build report. Hides it if the manifest cannot be loaded. */
   async #showLevels(): Promise<void> {
     const { desk, signal } = this.visit;
     const report = await desk.api.get<Manifest>(`${this.#path}/manifest`, signal).then(levelReport, () => []);
@@ -63,14 +66,14 @@ class ModelEditor {
     this.#report.replaceChildren(...report);
   }
 
-  /** Waits until the change `act` is done, then reads the model from the daemon and shows it. */
+  /** Waits for the change `act`, then reads the model from the daemon again and shows it. */
   async #changed(act: Promise<unknown>): Promise<void> {
     await act;
     this.#show(await this.#read());
     this.#title.focus();
   }
 
-  /** Shows the new file after the model's file was replaced. */
+  /** Shows the new file of a model whose file was replaced. */
   async #again(): Promise<void> {
     this.#shown = "";
     this.#show(await this.#read());

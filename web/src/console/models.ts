@@ -13,7 +13,7 @@ import { cardOf, dropZone, interruptedUploads, kUnits, type Making } from "./upl
 import type { Sending } from "./uploads.ts";
 
 const words = texts.models;
-/** Milliseconds without input after which the search starts. */
+/** The search starts when the operator has not typed for this many milliseconds. */
 const kRest = 250;
 
 function row({ desk, signal }: Visit, model: ModelRecord): HTMLElement {
@@ -24,7 +24,7 @@ function row({ desk, signal }: Visit, model: ModelRecord): HTMLElement {
     modelBadge(model)));
 }
 
-const stem = (name: string): string => name.replace(/\.[^.]+$/, "");
+const stem = (name: string): string => name.replace(/\.gz$/i, "").replace(/\.[^.]+$/, "");
 
 function newModel(sending: Sending): Making {
   const fields = [
@@ -39,7 +39,7 @@ function newModel(sending: Sending): Making {
   return { fields, submit: texts.uploads.make, order };
 }
 
-/** Calls `act` whenever a job that made a model has ended, until `signal` is aborted. */
+/** Calls `act` whenever a job that makes a model has ended, until `signal` is aborted. */
 function onMade(desk: Desk, act: () => void, signal: AbortSignal): void {
   let made: string | undefined;
   desk.jobs.onChange(() => {

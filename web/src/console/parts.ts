@@ -31,7 +31,7 @@ export function jobBadge({ state }: Job): HTMLElement {
   return badge(texts.jobs.states[state], state);
 }
 
-/** Describes a job: its stage, its remaining time, and why it waits or failed. */
+/** Describes a job: its stage, its remaining time, and the reason if it waits or has failed. */
 export function jobLine(job: Job): string {
   const underWay = job.state === "running" && job.eta !== null ? timeLeft(job.eta) : "";
   const stage = !isOver(job) && job.stage ? stageName(job.stage) : "";
@@ -53,8 +53,9 @@ export function table(caption: string, heads: string[], rows: (string | Node)[][
 }
 
 /**
- * Fills a list with its first page, and adds a button that appends the next page. `ask` returns the rows of the page at
- * `cursor`, and the cursor of the next page. Resolves to the number of rows on the first page.
+ * Fills a list with its first page, and adds a button that appends the next page. `ask` returns the
+ * rows of the page at `cursor`, and the cursor of the page after that. Resolves to the number of
+ * rows on the first page.
  */
 export async function paged(list: HTMLElement, ask: (cursor: string | null) => Promise<{ rows: Node[]; next: string | null }>): Promise<number> {
   const first = await ask(null);

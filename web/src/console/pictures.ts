@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images that need a token. An <img> element cannot send a token, so these images are fetched by script.
+// Images that need a token. Scripts fetch these images, because an <img> element cannot send a
+// token.
 import { h } from "../ui/dom.ts";
 import type { Api } from "./api.ts";
 
 /**
- * Creates an image that reserves its space and is loaded when it becomes visible. If loading fails, the image is
- * hidden.
+ * Creates an image that reserves its space, and is loaded when it becomes visible. Hides the image
+ * if loading fails.
  */
 export function picture(api: Api, path: string, alt: string, signal: AbortSignal): HTMLImageElement {
   const image = h("img", { alt, class: "pending" });

@@ -2,8 +2,8 @@
 // Finds the page for a URL fragment such as "#/models/01hf…".
 
 /**
- * Matches a fragment with a pattern such as "models/:id". Returns the fragment's parts that correspond to the parts of
- * the pattern with a colon, or null if the fragment does not match.
+ * Matches a fragment with a pattern such as "models/:id". Returns the parts of the fragment that
+ * correspond to the pattern's parts with a colon. Returns null if the fragment does not match.
  */
 export function match(pattern: string, hash: string): string[] | null {
   const wanted = pattern.split("/"), given = hash.replace(/^#?\/?/, "").split("/");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/scans/{id}": a scan with its growing point cloud and its actions. The model finally replaces the points.
+// The page "#/scans/{id}" of a scan: its growing point cloud and its actions. When the scan is
+// done, the model replaces the points.
 import type { CloudView } from "../ui/cloud-view.ts";
 import { h } from "../ui/dom.ts";
 import { watchScan, type ScanSight } from "../ui/scan-watch.ts";
@@ -43,8 +44,8 @@ class ScanDesk implements ScanSight {
   }
 
   /**
-   * Follows the scan until it is done or cancelled. A failed scan is followed further, because an operator may resume
-   * it.
+   * Follows the scan until it is done or cancelled. Also follows a failed scan, because an operator
+   * may resume it.
    */
   async #watch(): Promise<void> {
     const { desk: { api }, signal } = this.visit, { CloudView } = await import("../ui/cloud-view.ts");
@@ -90,7 +91,8 @@ class ScanDesk implements ScanSight {
   }
 
   #offer(scan: Scan): void {
-    const choices = scan.model ?? scan.state; // buttons and viewer are replaced only if `choices` changes
+    // Replaces the buttons and the viewer only if the value that determines them has changed.
+    const choices = scan.model ?? scan.state;
     if (choices === this.#choices) return;
     this.#choices = choices;
     if (scan.model) return void this.#modelled(scan.model).catch((error) => this.#alert.show(error));
@@ -105,7 +107,7 @@ class ScanDesk implements ScanSight {
       ...(isOpen ? [button(words.cancel, this.#alert, cancel)] : []));
   }
 
-  /** Replaces the points by the model, which may be a draft. */
+  /** Shows the model instead of the points. The model may be a draft. */
   async #modelled(id: string): Promise<void> {
     const { desk } = this.visit, model = await desk.api.get<ModelRecord>(`/models/${id}`, this.visit.signal);
     const publish = async () => {

@@ -12,13 +12,13 @@ import type { Calibrations, Scanner } from "./types.ts";
 
 const words = texts.scanner;
 /**
- * Waits in milliseconds: kPause between two preview pictures, kRetry after a picture could not be fetched, and kLook
- * between two polls of the scanner's state.
+ * Milliseconds: kPause between two preview pictures, kRetry after a picture could not be fetched,
+ * and kLook between two polls of the scanner's state.
  */
 const kPause = 200, kRetry = 2000, kLook = 2000;
 const kJogs = [-90, -10, 10, 90];
 
-/** Creates the camera preview. It fetches pictures while its checkbox "live" is checked. */
+/** Creates the camera preview. The preview fetches pictures while its checkbox "live" is checked. */
 function preview({ desk, signal }: Visit, path: string): HTMLElement {
   const image = h("img", { alt: words.previewOf, class: "pending" }), note = h("p", { class: "quiet", role: "status" });
   const live = h("input", { type: "checkbox", id: "live" });
@@ -46,13 +46,22 @@ function preview({ desk, signal }: Visit, path: string): HTMLElement {
     h("div", { class: "row" }, h("label", { class: "switch", for: "live" }, live, words.live), note));
 }
 
-function byHand({ desk }: Visit, path: string): HTMLElement {
+function byHand({ desk, signal }: Visit, name: string, path: string): HTMLElement {
   const alert = new Alert(), { api } = desk;
+  let isLit = false; // whether this page has lit the laser
+  const putOut = () => {
+    if (isLit) api.putOut(name);
+    isLit = false;
+  };
   const turn = (degrees: number) => api.send("POST", `${path}/jog`, { degrees });
   const laser = (on: boolean) => async () => {
+    isLit ||= on;
     await api.send("POST", `${path}/laser`, { on });
+    isLit = on;
     desk.say(on ? words.laserIsOn : words.laserIsOff);
   };
+  signal.addEventListener("abort", putOut);
+  addEventListener("pagehide", putOut, { signal });
   const jogs = kJogs.map((degrees) => button(`${degrees > 0 ? "+" : "−"}${Math.abs(degrees)}°`, alert, () => turn(degrees)));
   return h("section", { class: "card" }, h("h2", {}, words.byHand),
     h("h3", {}, words.table), h("div", { class: "actions" }, ...jogs),
@@ -92,13 +101,13 @@ export const scannerPage: ConsolePage = async (visit) => {
   const calibrations = h("section", { class: "card" }, h("h2", {}, texts.calibration.title));
   view.append(
     heading(name, badge, h("a", { class: "button primary", href: `#/scans/new/${name}` }, texts.scans.new), h("a", { class: "button", href: `#/scanners/${name}/calibrate` }, texts.calibration.begin)),
-    h("div", { class: "columns wide" }, h("div", {}, preview(visit, path), calibrations), h("div", {}, h("section", { class: "card" }, state), byHand(visit, path))));
+    h("div", { class: "columns wide" }, h("div", {}, preview(visit, path), calibrations), h("div", {}, h("section", { class: "card" }, state), byHand(visit, name, path))));
   await look();
   calibrations.append(...(await calibrationsOf(visit, path)));
   void (async () => {
     for (;;) {
       await pause(kLook, signal);
-      // An error is ignored, because the next poll follows soon.
+      // Ignores an error, because the next poll follows soon.
       await look().catch(() => undefined);
     }
   })().catch(() => undefined);

@@ -7,7 +7,7 @@ import { texts } from "./texts/index.ts";
 import type { Scanner } from "./types.ts";
 
 const words = texts.scanners;
-/** Polling interval, milliseconds. */
+/** Polling interval in milliseconds. */
 const kPause = 3000;
 
 export function scannerBadge({ state }: Scanner): HTMLElement {
@@ -43,14 +43,14 @@ export const scannersPage: ConsolePage = async ({ desk, view, signal }) => {
   void (async () => {
     for (;;) {
       await pause(kPause, signal);
-      // An error is ignored, because the next poll follows soon.
+      // Ignores an error, because the next poll follows soon.
       await fill().catch(() => undefined);
     }
   })().catch(() => undefined);
   return words.title;
 };
 
-/** Whether the list already shows these cards. Replacing equal cards would take the focus from them. */
+/** Whether the list already shows these cards. Replacing equal cards would make a focused card lose the focus. */
 function isSame(cards: HTMLElement[], list: HTMLElement): boolean {
   return cards.length === list.children.length && cards.every((one, i) => one.isEqualNode(list.children[i] as Node));
 }

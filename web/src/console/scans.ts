@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pages "#/scans", the list of scans, and "#/scans/new", which starts a scan.
+// The pages "#/scans" (the list of scans) and "#/scans/new" (which starts a scan).
 import { h } from "../ui/dom.ts";
 import { date, texts as gallery } from "../ui/texts/index.ts";
 import type { ConsolePage } from "./desk.ts";
@@ -26,7 +26,7 @@ export const scansPage: ConsolePage = async ({ desk, view, signal }) => {
   return words.title;
 };
 
-/** Converts the form's values to a request. Empty fields are omitted; the scanner's defaults then apply. */
+/** Converts the form's values to a request. Omits empty fields, so that the scanner's defaults apply. */
 function orderOf({ scanner, title, creator, licence, steps, exposure, calibration, keep_frames, publish }: Values) {
   return {
     scanner, steps, keep_frames, publish, metadata: { title, creator, licence },
@@ -42,7 +42,7 @@ export const newScanPage: ConsolePage = async ({ desk, view, signal, words: [wan
   const offer = (known: Calibration[]) => calibration.querySelector("select")?.replaceChildren(
     h("option", { value: "" }, texts.calibration.newest), ...known.map(({ number, rms }) => h("option", { value: number }, words.calibration(number, rms))));
   const learn = async () => {
-    offer([]); // for a scanner that cannot be reached, only "newest" is offered
+    offer([]); // for a scanner that cannot be reached, "newest" is the only choice
     const { calibrations } = await desk.api.get<Calibrations>(`/scanners/${encodeURIComponent(select.value)}/calibrations`, signal);
     offer(calibrations);
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signs an operator in. The token is kept in the tab's session storage, which the browser deletes when the tab is
-// closed.
+// Signs an operator in. The token is kept in the session storage of the browser tab. The browser
+// deletes that storage when the tab is closed.
 import { h } from "../ui/dom.ts";
 import { Api } from "./api.ts";
 import { Alert, field } from "./forms.ts";
@@ -13,7 +13,7 @@ export const forgetToken = (): void => sessionStorage.removeItem(kKept);
 
 /**
  * Asks for a token until the daemon accepts one. Resolves to an API client with that token. `why`
- * is the error, if any, that signed the operator out. It is shown.
+ * is the error that signed the operator out, if any. The page shows this error.
  */
 export function signedIn(view: HTMLElement, why?: unknown): Promise<Api> {
   const alert = new Alert(), words = texts.signIn, token = field({ name: "token", label: words.token, hint: words.hint, required: true });

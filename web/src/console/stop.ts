@@ -1,62 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// The emergency stop: a button on every page that stops all scanners without confirmation.
+// The emergency stop: a button on every page that stops all scanners without confirmation. The
+// banner below it follows from the state of lasers and motors, so it never contradicts that state.
 import { h } from "../ui/dom.ts";
 import type { Api } from "./api.ts";
-import { pause } from "./desk.ts";
 import { sentence } from "./forms.ts";
 import { Problem } from "./problem.ts";
+import { isOff, isUnknown, type ScannerWatch } from "./scanner-watch.ts";
 import { texts } from "./texts/index.ts";
-import type { Scanner } from "./types.ts";
 
 const kTries = 3;
-/** Milliseconds between two attempts. */
+/** Milliseconds between two attempts to stop a scanner. */
 const kBetween = 1000;
-/** Interval in milliseconds at which the list of scanners is polled. */
-const kPause = 3000;
 
 export class EmergencyStop {
   readonly button = h("button", { type: "button", class: "stop", hidden: true }, texts.stop.button);
   readonly said = h("div", { role: "alert", class: "stopped", hidden: true });
-  /**
-   * Names of all scanners that have been in the list. If a scanner's daemon disappears from the list, its table may
-   * still be turning.
-   */
-  readonly #scanners = new Set<string>();
+  /** The phase of the newest stop: "sent" until all scanners have responded, then "over" until something is on again. */
+  #phase: "none" | "sent" | "over" = "none";
+  /** Why scanners did not confirm the stop; empty if all did. */
+  #fault = "";
+  #shown = "";
 
-  constructor(private readonly api: Pick<Api, "get" | "stop">) {
+  constructor(private readonly api: Pick<Api, "stop">, private readonly watch: ScannerWatch) {
     this.button.addEventListener("click", () => void this.#stop());
-  }
-
-  /** Polls the list of scanners until `signal` is aborted, so that a stop need not wait for the list. */
-  async keepLearning(signal: AbortSignal): Promise<void> {
-    while (!signal.aborted) {
-      // An error is ignored, because the next poll follows soon.
-      await this.#learn(signal).catch(() => undefined);
-      await pause(kPause, signal);
-    }
-  }
-
-  async #learn(signal: AbortSignal): Promise<void> {
-    const { scanners } = await this.api.get<{ scanners: Scanner[] }>("/scanners", signal);
-    for (const { name } of scanners) this.#scanners.add(name);
-    this.button.hidden = this.#scanners.size === 0;
+    watch.onChange = () => this.#show();
   }
 
   async #stop(): Promise<void> {
-    this.#say(texts.stop.stopping, "");
-    const scanners = [...this.#scanners];
-    const ends = await Promise.allSettled(scanners.map((name) => this.#surely(name)));
+    this.#phase = "sent";
+    this.#show();
+    this.watch.outdate();
+    const ends = await Promise.allSettled([...this.watch.scanners.keys()].map((name) => this.#surely(name)));
     const failed = ends.find((end): end is PromiseRejectedResult => end.status === "rejected");
-    if (failed) this.#say(`${texts.stop.failed} ${sentence(failed.reason)}`, "bad");
-    else this.#say(texts.stop.done(scanners.join(", ")), "good");
+    this.#fault = failed ? sentence(failed.reason) : "";
+    this.#phase = "over";
+    this.watch.outdate();
+    this.#show();
   }
 
-  /** Sends the stop up to kTries times, until it succeeds. Does not retry after a 4xx response. */
-  async #surely(scanner: string): Promise<void> {
+  /** Sends the stop up to kTries times, until one attempt succeeds. Does not retry after a 4xx response. */
+  async #surely(name: string): Promise<void> {
     for (let left = kTries; ; --left) {
       try {
-        return await this.api.stop(scanner);
+        return this.watch.set(name, await this.api.stop(name));
       } catch (error) {
+        this.watch.set(name, null);
         const isRefused = error instanceof Problem && error.status < 500;
         if (left === 1 || isRefused) throw error;
         await new Promise((resolve) => setTimeout(resolve, kBetween));
@@ -64,10 +52,29 @@ export class EmergencyStop {
     }
   }
 
+  #show(): void {
+    const { scanners } = this.watch, states = [...scanners.values()];
+    this.button.hidden = scanners.size === 0;
+    if (this.#phase === "none") return this.#say("", "");
+    if (this.#phase === "sent") return this.#say(texts.stop.stopping, "");
+    if (states.every(isOff)) return this.#say(texts.stop.done([...scanners.keys()].join(", ")), "good");
+    if (this.#fault || states.some(isUnknown)) return this.#say(`${texts.stop.failed} ${this.#fault}`.trim(), "bad");
+    this.#close(); // somebody has switched a laser or a motor on since
+  }
+
+  #close(): void {
+    this.#phase = "none";
+    this.#fault = "";
+    this.#say("", "");
+  }
+
+  /** Shows the text, or hides the banner if it is empty. An unchanged text is not announced again. */
   #say(text: string, kind: string): void {
-    const close = h("button", { type: "button", "aria-label": texts.close, onclick: () => (this.said.hidden = true) }, "×");
+    if (text === this.#shown) return;
+    this.#shown = text;
+    const close = h("button", { type: "button", "aria-label": texts.close, onclick: () => this.#close() }, "×");
     this.said.className = `stopped ${kind}`;
     this.said.replaceChildren(h("p", {}, text), close);
-    this.said.hidden = false;
+    this.said.hidden = text === "";
   }
 }

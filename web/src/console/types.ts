@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types of the API's responses, with the members that the console reads (all are in /api/v1/openapi.json).
+// Types of the API's responses, with only the members that the console reads. /api/v1/openapi.json
+// describes all members.
 export type { ModelListPage, ModelRecord, ScanRecord, Unit } from "../ui/api.ts";
 import type { ScanRecord } from "../ui/api.ts";
 
@@ -17,6 +18,7 @@ export interface Job {
   scanner: string | null;
   scan: string | null;
   model: string | null;
+  repairs: string[]; // what the build changed or left out, one line for each kind
   created: string;
   ended: string | null;
 }
@@ -38,6 +40,9 @@ export interface ScanListPage {
   next: string | null;
 }
 
+export type LaserState = "unknown" | "off" | "on";
+export type MotorState = "unknown" | "off" | "holding" | "turning";
+
 export interface Scanner {
   name: string;
   state: "idle" | "busy" | "unreachable";
@@ -46,6 +51,8 @@ export interface Scanner {
   calibration: number | null;
   scan: string | null;
   problem: string | null;
+  laser?: { state: LaserState; since: string | null };
+  motor?: { state: MotorState; since: string | null };
 }
 
 export interface Calibration {
@@ -55,7 +62,7 @@ export interface Calibration {
   rms: number; // RMS error in mm, measured with poses that were not used for the calibration
   p95: number;
   max: number;
-  coverage: number; // 0 to 1
+  coverage: number; // share of the picture that the calibration covers, 0 to 1
 }
 
 export interface Calibrations {
@@ -77,6 +84,14 @@ export interface Token {
   role: Role;
   label: string;
   created: string;
+}
+
+/** The visits to each model over some days. Times are in seconds. */
+export interface Visits {
+  from: string; // a date, such as 2026-11-28
+  to: string;
+  counted: boolean; // whether the daemon counts visits now
+  models: { model: string; title: string; visits: number; seconds: number; mean_level: number; complete: number }[];
 }
 
 export const isOver = ({ state }: { state: JobState }): boolean => state === "done" || state === "failed" || state === "cancelled";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cards for uploads. Each has a form for the model to make from the file; the operator fills it in during the upload.
+// Cards for uploads. Each card has a form for the model that is made from the file. The operator
+// fills it in during the upload.
 import { h } from "../ui/dom.ts";
 import { size } from "../ui/texts/index.ts";
 import type { Desk } from "./desk.ts";
@@ -7,15 +8,16 @@ import { Alert, button, field, form, type Values } from "./forms.ts";
 import { Bar } from "./parts.ts";
 import { JobCard } from "./jobs.ts";
 import { texts } from "./texts/index.ts";
-import { kUploadNames, kUploadSuffixes } from "./mesh-formats.ts";
+import { droppedFiles, uploadsOf, type Dropped } from "./dropped.ts";
+import { kBesideTypes, kUploadNames, kUploadSuffixes } from "./mesh-formats.ts";
 import type { Sending, SendingState } from "./uploads.ts";
 
 const words = texts.uploads;
 export const kUnits: [string, string][] = [["", words.unitOfFile], ["mm", "mm"], ["cm", "cm"], ["m", "m"], ["in", "in"]];
 
 /**
- * The form of an upload. `order` converts the form's values to the request that is sent when the upload is complete.
- * `made` is called when the model has been made.
+ * The form of an upload. `order` converts the form's values to the request that is sent when the
+ * upload is complete. `made` is called when the model exists.
  */
 export interface Making {
   fields: HTMLElement[];
@@ -24,7 +26,7 @@ export interface Making {
   made?: () => void;
 }
 
-/** The cards of all uploads. They are kept, because uploads continue while other pages are open. */
+/** The cards of all uploads. They are kept when the operator leaves the page, because the uploads continue. */
 const cards = new WeakMap<Sending, HTMLElement>();
 const never = new AbortController().signal;
 
@@ -86,7 +88,7 @@ class UploadCard {
     this.element.remove();
   }
 
-  /** Waits until the file is uploaded, starts the job, and replaces the form by the job's progress. */
+  /** Waits until the file is uploaded, then starts the job and replaces the form by the job's progress. */
   async #make(values: Values): Promise<void> {
     this.#form.inert = true;
     this.#line.textContent = words.afterwards;
@@ -107,16 +109,17 @@ class UploadCard {
 }
 
 /**
- * Creates an area onto which files can be dropped, with a button that opens a file dialog. Calls `take` with the
- * files.
+ * Creates an area onto which files and folders can be dropped, with a button that opens a file
+ * dialog. Calls `take` with the files to upload: a model and its pictures are one file.
  */
 export function dropZone(label: string, take: (files: File[]) => void): HTMLElement {
-  const input = h("input", { type: "file", multiple: true, accept: kUploadSuffixes.join(), class: "hidden", tabindex: -1, "aria-label": label });
+  const input = h("input", { type: "file", multiple: true, accept: [...kUploadSuffixes, ...kBesideTypes].join(), class: "hidden", tabindex: -1, "aria-label": label });
   const choose = h("button", { type: "button", onclick: () => input.click() }, words.choose);
-  const zone = h("div", { class: "drop" }, h("p", {}, label), choose, h("small", {}, words.formats(kUploadNames)), input);
+  const zone = h("div", { class: "drop" }, h("p", {}, label), choose, h("small", {}, words.formats(kUploadNames)), h("small", {}, words.together), input);
+  const chosen = (files: Dropped[]) => take(uploadsOf(files));
   input.addEventListener("change", () => {
-    take([...(input.files ?? [])]);
-    input.value = ""; // allows choosing the same file again
+    chosen([...(input.files ?? [])].map((file) => ({ path: file.name, file })));
+    input.value = ""; // lets the operator choose the same file again
   });
   const over = (event: Event) => (event.preventDefault(), zone.classList.add("over"));
   zone.addEventListener("dragenter", over);
@@ -125,7 +128,7 @@ export function dropZone(label: string, take: (files: File[]) => void): HTMLElem
   zone.addEventListener("drop", (event) => {
     event.preventDefault();
     zone.classList.remove("over");
-    take([...(event.dataTransfer?.files ?? [])]);
+    if (event.dataTransfer) void droppedFiles(event.dataTransfer).then(chosen);
   });
   return zone;
 }

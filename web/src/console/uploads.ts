@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uploads files to the daemon (tus 1.0), one after the other and in pieces. An upload can be resumed after a
-// lost connection, a pause, or a closed page.
+// Uploads files to the daemon (tus 1.0), one file at a time and in pieces. An upload can be resumed
+// after a lost connection, after a pause, or after the page was closed.
 import { DetailedError, Upload, defaultOptions, type PreviousUpload } from "tus-js-client";
 import { Problem } from "./problem.ts";
 
 const kEndpoint = "/api/v1/uploads";
-/** Maximum number of bytes per request, because proxies limit the size of a request's body. */
+/** Maximum number of bytes per request. Proxies limit the size of a request's body. */
 const kPiece = 8 << 20;
 const kRetries = [0, 1000, 3000, 5000, 10_000, 20_000, 30_000, 60_000];
 
@@ -52,10 +52,11 @@ export class Sending {
     this.ended();
   }
 
-  /** Stops the upload and deletes the part that the server has received. */
+  /** Stops the upload and deletes the part of the file that the server has received. */
   async cancel(): Promise<void> {
     this.#be("paused");
-    await this.#upload.abort(true).catch(() => undefined); // if the deletion fails, the upload expires later
+    // Ignores an error. The part on the server then expires later.
+    await this.#upload.abort(true).catch(() => undefined);
     this.ended();
   }
 
@@ -120,8 +121,8 @@ export class Uploads {
   }
 
   /**
-   * Returns the interrupted uploads. Browsers do not keep the file, so the operator must choose the file again to
-   * resume.
+   * Returns the interrupted uploads. To resume one, the operator must choose the file again,
+   * because browsers do not keep it.
    */
   async interrupted(): Promise<Interrupted[]> {
     const known = await defaultOptions.urlStorage.findAllUploads();

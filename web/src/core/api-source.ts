@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a model from the daemon's HTTP API: one request for the head, one URL per chunk, no Range requests.
-// With a token it also reads models that are not public; their chunk URLs are below the model's own URL.
+// Reads a model from the daemon's HTTP API: one request for the head and one URL per chunk, without
+// Range requests. With a token it also reads models that are not public. Their chunk URLs are below
+// the model's own URL.
 import { readAll, unreachable, type ByteRange, type Source } from "./source.ts";
 import { DamagedError, ModelError } from "./types.ts";
 
@@ -23,7 +24,7 @@ export class ApiSource implements Source {
     throw new DamagedError(`a part of the model has ${bytes.length} bytes instead of ${range.length}`);
   }
 
-  /** Does nothing: each request has its own abort signal. */
+  /** Does nothing, because each request has its own abort signal. */
   close(): void {}
 
   async #get(url: string, what: string, signal: AbortSignal): Promise<Uint8Array> {

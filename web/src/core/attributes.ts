@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of the vertex attributes that a model can have besides positions, with their layouts in the base
-// mesh, in the decoder's output and in the displayed surface.
+// Table of the vertex attributes that a model can have in addition to positions. It states their
+// layouts in the decoder's output and in the displayed surface.
 
 export type Semantic = "colour";
 
-/** All semantics, in the order of the enumeration in codec/mesh/vertex_attributes.h. */
+/** All attribute semantics, in the order of the enumeration in codec/mesh/vertex_attributes.h. */
 export const kSemantics: readonly Semantic[] = ["colour"];
 
 interface AttributeKind {
-  /** Attribute type in a Draco buffer. */
-  draco: "COLOR";
   /** Bytes per vertex in the decoder's output. */
   bytes: number;
   /** Components per vertex in the displayed surface. */
@@ -19,7 +17,7 @@ interface AttributeKind {
 }
 
 export const kAttributes: Readonly<Record<Semantic, AttributeKind>> = {
-  colour: { draco: "COLOR", bytes: 3, width: 4, shown: linearColours },
+  colour: { bytes: 3, width: 4, shown: linearColours },
 };
 
 /** Values of one attribute for all vertices, in vertex order. */

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shares a page's memory budget among its models. Each model may use what the others leave free, but
-// at least an equal share. A model above its limit is coarsened at its next detail request.
+// Shares a page's memory budget among its models. Each model may use the memory that the others
+// leave free, and always at least an equal share. A model above its limit is coarsened at its next
+// detail request.
 
 export interface ModelSize {
   triangles: number;
   /** Bytes of .pmesh data. */
   bytes: number;
+  /**
+   * Texels of all pictures, without their mipmaps. In graphics memory, a texel takes 5.3 bytes,
+   * including its share of the mipmaps.
+   */
+  texels?: number;
 }
 
 export class Budget {
-  readonly #held = new Map<object, ModelSize>();
+  readonly #held = new Map<object, Required<ModelSize>>();
 
-  constructor(public most: ModelSize = { triangles: Infinity, bytes: Infinity }) {}
+  constructor(public most: Required<ModelSize> = { triangles: Infinity, bytes: Infinity, texels: Infinity }) {}
 
-  /** Records the triangles and bytes that `model` uses now. */
-  hold(model: object, amount: ModelSize): void {
+  /** Records how much `model` uses now. */
+  hold(model: object, amount: Required<ModelSize>): void {
     this.#held.set(model, amount);
   }
 
@@ -22,9 +28,9 @@ export class Budget {
     this.#held.delete(model);
   }
 
-  /** Returns the maximum that `model` may use now. */
-  room(model: object): ModelSize {
-    return { triangles: this.#room(model, "triangles"), bytes: this.#room(model, "bytes") };
+  /** Returns how much `model` may use now. */
+  room(model: object): Required<ModelSize> {
+    return { triangles: this.#room(model, "triangles"), bytes: this.#room(model, "bytes"), texels: this.#room(model, "texels") };
   }
 
   #room(model: object, what: keyof ModelSize): number {

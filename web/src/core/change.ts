@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the changed ranges of a surface. The page copies, uploads and morphs only these, in blocks of
-// at most 64 KiB, so that no single task blocks the page.
+// Finds the changed ranges of a surface. The page copies, uploads and morphs only these ranges.
+// Each range is split into blocks of at most 64 KiB, so that no single task blocks the page.
 import { kAttributes } from "./attributes.ts";
 import type { Change, NumericArray, Place, Surface, SurfaceArray } from "./types.ts";
 
@@ -8,8 +8,8 @@ import type { Change, NumericArray, Place, Surface, SurfaceArray } from "./types
 export const kBlockBytes = 1 << 16;
 
 /**
- * Number of vertices or faces that change detection compares as one unit: if any of them differs, all count as
- * changed.
+ * Number of vertices or faces that are compared as one unit. If any of them differs, all of them
+ * count as changed.
  */
 const kTogether = 2048;
 
@@ -25,21 +25,21 @@ export interface Piece extends Place {
   write(buffer: ArrayBuffer): void;
 }
 
-/** Stores the surface shown last and computes the change to the next surface. */
+/** Stores the last surface shown, and computes the change from it to the next surface. */
 export class Shown {
   #last: Surface | undefined;
   #number = 0;
 
   /**
    * Returns the change from the previous surface to `surface`. An existing vertex morphs from its
-   * previous position. A new vertex morphs from the position of its nearest ancestor in the previous
-   * surface, found through `parents` (for each vertex, the vertex that was split to create it).
-   * With `isRenumbered`, vertex indices do not match those of the previous surface, so nothing morphs.
+   * previous position. A new vertex morphs from the position of its nearest ancestor in the
+   * previous surface. `parents` has, for each vertex, the vertex that was split to create it. With
+   * `isRenumbered`, vertex indices do not match those of the previous surface, so nothing morphs.
    */
   change(surface: Surface, parents: Uint32Array, isRenumbered: boolean): { change: Change; pieces: Piece[] } {
     const last = this.#last;
     this.#last = surface;
-    const { vertices, triangles, bytes, positions, normals, attributes, indices } = surface;
+    const { vertices, triangles, bytes, positions, normals, attributes, coordinates, indices } = surface;
     const vertexRuns = changed(vertices, last?.vertices ?? 0, pairs(surface, last));
     const faceRuns = changed(triangles, last?.triangles ?? 0, last ? [{ now: indices, before: last.indices, width: 3 }] : []);
     const moved = origins(vertexRuns, parents, isRenumbered || !last ? 0 : last.vertices);
@@ -48,9 +48,11 @@ export class Shown {
       ...copied("positions", positions, 3, vertexRuns),
       ...copied("normals", normals, 4, vertexRuns),
       ...attributes.flatMap(({ semantic, values }) => [...copied(semantic, values, kAttributes[semantic].width, vertexRuns)]),
+      ...(coordinates ? copied("coordinates", coordinates, 2, vertexRuns) : []),
       ...copied("indices", indices, 3, faceRuns),
-      ...left("fromPositions", positions, last?.positions, 3, moved, vertexRuns, number),
-      ...left("fromNormals", normals, last?.normals, 4, moved, vertexRuns),
+      ...left({ part: "fromPositions", now: positions, before: last?.positions, width: 3, room: 4 }, moved, vertexRuns, number),
+      ...left({ part: "fromNormals", now: normals, before: last?.normals, width: 4, room: 4 }, moved, vertexRuns),
+      ...(coordinates ? left({ part: "fromCoordinates", now: coordinates, before: last?.coordinates, width: 2, room: 2 }, moved, vertexRuns) : []),
     ];
     return { change: { number, vertices, triangles, bytes, blocks: pieces.length }, pieces };
   }
@@ -66,22 +68,33 @@ function* copied(part: SurfaceArray, values: NumericArray, width: number, runs: 
 }
 
 /**
- * Yields pieces with the values from which each vertex of the runs starts to morph. `moved` has, for each of
- * these vertices, the index of the vertex in `before` whose values are used, or -1 if the vertex does not move.
+ * The source of a `from…` array: the values now and before the change, with `width` numbers per
+ * vertex. The `from…` array has `room` numbers per vertex.
  */
-function* left(
-  part: SurfaceArray, now: NumericArray, before: NumericArray | undefined, width: number, moved: Int32Array, runs: Uint32Array, number?: number,
-): Generator<Piece> {
+interface Origin {
+  part: SurfaceArray;
+  now: NumericArray;
+  before: NumericArray | undefined;
+  width: number;
+  room: number;
+}
+
+/**
+ * Yields pieces with the values from which each vertex of the runs starts to morph. For each of
+ * these vertices, `moved` has the index in `before` of the start values, or -1 if the vertex does
+ * not move. If `number` is given, it is the fourth number of each vertex.
+ */
+function* left({ part, now, before, width, room }: Origin, moved: Int32Array, runs: Uint32Array, number?: number): Generator<Piece> {
   let behind = 0;
-  for (const { first, count } of places(runs, 4 * now.BYTES_PER_ELEMENT)) {
+  for (const { first, count } of places(runs, room * now.BYTES_PER_ELEMENT)) {
     const begin = behind;
     const write = (buffer: ArrayBuffer) => {
       const out = likeness(now, buffer);
       for (let i = 0; i < count; ++i) {
         const origin = moved[begin + i] as number;
         const [source, at] = origin < 0 || !before ? [now, first + i] : [before, origin];
-        for (let k = 0; k < width; ++k) out[4 * i + k] = source[width * at + k] as number;
-        if (number !== undefined) out[4 * i + 3] = number;
+        for (let k = 0; k < width; ++k) out[room * i + k] = source[width * at + k] as number;
+        if (number !== undefined) out[room * i + 3] = number;
       }
     };
     yield { part, first, count, write };
@@ -108,14 +121,16 @@ function pairs(now: Surface, before: Surface | undefined): Pair[] {
   return [
     { now: now.positions, before: before.positions, width: 3 },
     { now: now.normals, before: before.normals, width: 4 },
+    ...(now.coordinates && before.coordinates ? [{ now: now.coordinates, before: before.coordinates, width: 2 }] : []),
     ...now.attributes.map(({ semantic, values }, i) => (
       { now: values, before: before.attributes[i]?.values ?? new Uint16Array(), width: kAttributes[semantic].width })),
   ];
 }
 
 /**
- * Compares the first `count` elements of the arrays with the `known` elements before the change. Returns the runs
- * of changed or added elements in ascending order, as pairs of first index and count.
+ * Compares the first `count` elements of the arrays with those before the change, of which there
+ * were `known`. Returns the runs of changed or added elements in ascending order, as pairs of first
+ * index and count.
  */
 function changed(count: number, known: number, arrays: Pair[]): Uint32Array {
   const runs: number[] = [];
@@ -135,8 +150,9 @@ function isEqual({ now, before, width }: Pair, begin: number, end: number): bool
 }
 
 /**
- * Returns one index for each vertex of the runs: the vertex itself if its index is below `known`, else its nearest
- * ancestor with such an index, or -1 if it has none.
+ * Returns one index for each vertex of the runs: the vertex itself if its index is below `known`,
+ * otherwise its nearest ancestor whose index is below `known`. The index is -1 if there is no such
+ * ancestor.
  */
 function origins(runs: Uint32Array, parents: Uint32Array, known: number): Int32Array {
   const out = new Int32Array(total(runs));

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's interface to the worker. All models of a page share one worker, which is terminated when
-// the last model is closed.
-import workerText from "./worker.ts?text";
+// The page's interface to the worker. All models of a page share one worker. The worker is
+// terminated when the last model is closed.
+import type { Assets } from "./assets.ts";
 import { Budget, type ModelSize } from "./budget.ts";
-import type { Assets, FromWorker, ToWorker } from "./messages.ts";
+import type { FromWorker, ToWorker } from "./messages.ts";
+import { PolicyWatch } from "./policy.ts";
 import type { Transport } from "./source.ts";
 import { ModelError, type Block, type Change, type ModelInfo, type Progress, type Want } from "./types.ts";
+import { workerUrl } from "./worker-url.ts";
 
 export interface ModelListener {
   opened(info: ModelInfo): void;
   /**
-   * Called before the blocks of a change arrive. Call `shown` when the change is displayed; only then does the next
-   * one arrive.
+   * Called before the blocks of a change arrive. Call `shown` when the change is displayed. The
+   * next change arrives only after that.
    */
   change(change: Change, shown: () => void): void;
-  /** Called for each block of the announced change. Return the block's buffer with `giveBack`. */
+  /** Called for each block of the announced change. Return the buffer of the block with `giveBack`. */
   block(block: Block): void;
+  /**
+   * Called for each picture that has been decoded. `bands` are its parts from top to bottom. The list is empty if the
+   * picture cannot be shown. The listener closes the bands.
+   */
+  picture(index: number, bands: ImageBitmap[]): void;
   progress(progress: Progress): void;
-  /** Called with the reason when the server does not respond, and with undefined when it responds again. */
+  /** Called with a reason when the server stops responding, and with undefined when it responds again. */
   stalled(reason: string | undefined): void;
   failed(error: ModelError): void;
 }
@@ -30,26 +37,23 @@ interface Turn {
 
 const budget = new Budget();
 
-/** Sets the maximum that all models of the page may use together when refined for a camera (ProgressiveMesh.refineFor). */
+/**
+ * Sets how many triangles and bytes all models of the page together may use when refined for a
+ * camera (ProgressiveMesh.refineFor), and how many texels their pictures may have together.
+ */
 export function setBudget(most: ModelSize): void {
-  budget.most = most;
+  budget.most = { texels: Infinity, ...most };
 }
 
 const models = new Map<number, RemoteModel>();
 let worker: Worker | undefined;
+let policy: PolicyWatch | undefined;
 let lastId = 0;
 
-/** Returns the URLs of the viewer's files in the folder of the module at `moduleUrl`. */
-export function assetsBeside(moduleUrl: string): Assets {
-  const beside = (name: string) => new URL(name, moduleUrl).href;
-  return {
-    wasm: beside("progressive-mesh.wasm"),
-    dracoScript: beside("draco_decoder.js"),
-    dracoWasm: beside("draco_decoder.wasm"),
-  };
-}
-
-/** A model whose session runs in the worker. It opens immediately; its messages are queued until a listener is set. */
+/**
+ * A model whose session runs in the worker. It opens immediately. Its messages are queued until a
+ * listener is set.
+ */
 export class RemoteModel {
   readonly #id = ++lastId;
   readonly #url: string;
@@ -57,7 +61,8 @@ export class RemoteModel {
   #turn = 0;
   #last: Want | undefined;
   #isReady = false;
-  #stops = 0; // number of decoder failures since a detail request was last reached
+  #stops = 0; // number of decoder failures since the last detail request was reached
+  #held: Required<ModelSize> = { triangles: 0, bytes: 0, texels: 0 };
   #lost: ModelError | undefined;
   #listener: ModelListener | undefined;
   #unheard: ((listener: ModelListener) => void)[] = [];
@@ -83,7 +88,10 @@ export class RemoteModel {
     else this.#unheard.push(tell);
   }
 
-  /** Resolves to true when `want` is reached and shown, to false if it is superseded or the model is closed. */
+  /**
+   * Resolves to true when `want` is reached and shown. Resolves to false if another request
+   * replaces `want` or the model is closed.
+   */
   refine(want: Want): Promise<boolean> {
     if (this.#lost) return Promise.reject(this.#lost);
     const turn = ++this.#turn;
@@ -92,6 +100,22 @@ export class RemoteModel {
       this.#turns.set(turn, { want, resolve, reject });
       this.#ask(turn, want);
     });
+  }
+
+  /** Requests a picture of the model's texture, in a size of `side` by `side` pixels. It arrives at the listener. */
+  showPicture({ index, side }: { index: number; side: number }): void {
+    if (models.has(this.#id)) send({ type: "showPicture", id: this.#id, index, side });
+  }
+
+  /** Number of texels that the pictures of this model may use now. */
+  get roomForTexels(): number {
+    return budget.room(this).texels;
+  }
+
+  /** Records the number of texels that the pictures of this model use. */
+  holdTexels(texels: number): void {
+    this.#held.texels = texels;
+    if (models.has(this.#id)) budget.hold(this, this.#held);
   }
 
   close(): void {
@@ -116,20 +140,21 @@ export class RemoteModel {
     else if (message.type === "progress") this.#tell((listener) => listener.progress(message.progress));
     else if (message.type === "stalled") this.#tell((listener) => listener.stalled(message.reason));
     else if (message.type === "block") this.#tell((listener) => listener.block(message.block));
+    else if (message.type === "picture") this.#tell((listener) => listener.picture(message.index, message.bands));
     else if (message.type === "change") this.#show(message.change);
     else if (message.type === "settled") this.#reach(message.turn, message.isReached);
     else if (message.type === "failed") this.#fail(message.turn, new ModelError(message.message));
-    else this.stop("a fault in the model");
+    else this.stop(stopped("a fault in the model"));
   }
 
   /**
-   * Handles a stopped decoder. A model that is already shown gets a new decoder; its current surface stays visible
-   * until the new decoder has reached the detail request. The model fails if it was not shown yet, or if the new
-   * decoder stops before it has reached the request.
+   * Handles a decoder that has stopped. If the model is already shown, it gets a new decoder, and
+   * its surface stays visible until the new decoder has reached the detail request. If the model
+   * was not shown yet, or the new decoder stops before it has reached the request, the model fails.
    */
-  stop(reason: string | undefined): void {
+  stop(message: string): void {
     if (this.#isReady && ++this.#stops === 1) return this.#restart();
-    this.#lost = new ModelError(`the viewer's decoder stopped${reason ? ` (${reason})` : ""}: reload the page`);
+    this.#lost = new ModelError(message);
     models.delete(this.#id);
     budget.release(this);
     for (const turn of this.#turns.values()) turn.reject(this.#lost);
@@ -140,6 +165,7 @@ export class RemoteModel {
 
   #open(isRestart: boolean): void {
     const { transport, assets, token } = this;
+    worker ??= startWorker(assets);
     send({ type: "open", id: this.#id, url: this.#url, transport, token, assets, isRestart });
   }
 
@@ -150,13 +176,14 @@ export class RemoteModel {
   }
 
   #ask(turn: number, want: Want): void {
-    const most = budget.room(this);
-    const limited = "view" in want ? { view: { ...most, ...want.view } } : want;
+    const { triangles, bytes } = budget.room(this);
+    const limited = "view" in want ? { view: { triangles, bytes, ...want.view } } : want;
     send({ type: "refine", id: this.#id, turn, want: limited });
   }
 
   #show(change: Change): void {
-    budget.hold(this, { triangles: change.triangles, bytes: change.bytes });
+    this.#held = { ...this.#held, triangles: change.triangles, bytes: change.bytes };
+    budget.hold(this, this.#held);
     const shown = () => models.has(this.#id) && send({ type: "shown", id: this.#id });
     this.#tell((listener) => listener.change(change, shown));
   }
@@ -179,29 +206,39 @@ export class RemoteModel {
 }
 
 function send(message: ToWorker): void {
-  worker ??= startWorker();
-  worker.postMessage(message);
+  worker?.postMessage(message);
 }
 
-/** Starts the worker from a blob, because a worker script must have the same origin as the embedding page. */
-function startWorker(): Worker {
-  const url = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
+function stopped(reason: string | undefined): string {
+  return `the viewer's decoder stopped${reason ? ` (${reason})` : ""}: reload the page`;
+}
+
+function startWorker(assets: Assets): Worker {
+  const url = workerUrl(assets);
+  policy ??= new PolicyWatch(document, ["worker-src"]);
   const started = new Worker(url);
   URL.revokeObjectURL(url);
-  started.onmessage = ({ data }: MessageEvent<FromWorker>) => models.get(data.id)?.receive(data);
-  started.onerror = (event) => {
+  let hasStarted = false;
+  started.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+    hasStarted = true;
+    models.get(data.id)?.receive(data);
+  };
+  started.onerror = async (event) => {
     event.preventDefault(); // the models report the error
-    if (started === worker) stop(event.message);
+    const isMissing = !hasStarted && !url.startsWith("blob:");
+    const message = isMissing ? `the viewer's worker is not there: ${url}; see "Bundlers" in the README of @vitrine/progressive-mesh` : stopped(event.message);
+    const forbidden = await policy?.reason();
+    if (started === worker) stop(forbidden ?? message);
   };
   return started;
 }
 
 /**
- * Ends the worker and reports the stop to all models. Called when the worker cannot start, for example because the
- * page's security policy forbids it, or has crashed, for example for lack of memory.
+ * Ends the worker and tells all models that it has stopped. Called if the worker cannot start or
+ * has crashed. For example, the page's security policy may forbid workers, or memory may run out.
  */
-function stop(reason: string | undefined): void {
+function stop(message: string): void {
   worker?.terminate();
   worker = undefined;
-  for (const model of [...models.values()]) model.stop(reason);
+  for (const model of [...models.values()]) model.stop(message);
 }

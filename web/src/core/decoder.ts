@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Typed interface to the C++ decoder and planner (codec/wasm). Each model has its own WebAssembly
-// instance, so closing a model frees all its memory and a fault in one model cannot affect another.
+// instance. So closing a model frees all its memory, and a fault in one model cannot affect
+// another.
 import { kAttributes, kSemantics } from "./attributes.ts";
-import { DamagedError, ModelError, type CameraView, type ModelInfo, type Surface, type Want } from "./types.ts";
+import {
+  DamagedError, ModelError, type CameraView, type ModelInfo, type PictureRole, type Surface, type TextureInfo, type Want,
+} from "./types.ts";
 
 type Pointer = number;
 
@@ -18,8 +21,11 @@ interface Exports {
   summary_length(model: Pointer): number;
   unit(model: Pointer): Pointer;
   chunk_hash(model: Pointer, chunk: number): Pointer;
+  check_picture(model: Pointer, picture: number, data: Pointer, size: number): number;
+  picture_hash(model: Pointer, picture: number): Pointer;
   check_base(model: Pointer, data: Pointer, size: number): number;
-  start(model: Pointer, positions: Pointer, vertices: number, faces: Pointer, count: number, attributes: Pointer): number;
+  check_atlas(model: Pointer, data: Pointer, size: number): number;
+  start(model: Pointer, base: Pointer, baseSize: number, atlas: Pointer, atlasSize: number): number;
   want(model: Pointer, kind: number, value: number): number;
   want_view(model: Pointer, numbers: Pointer): number;
   next_chunk(model: Pointer): number;
@@ -37,24 +43,19 @@ interface Exports {
   normals(model: Pointer): Pointer;
   indices(model: Pointer): Pointer;
   attribute_values(model: Pointer, index: number): Pointer;
+  texture_coordinates(model: Pointer): Pointer;
 }
 
-/**
- * The base mesh as decoded by Draco. `positions` has 3 lattice coordinates per vertex, `faces` 3 vertex indices per
- * face. `attributes` has 3 numbers per vertex for the model's first attribute, then for the second, and so on.
- */
-export interface BaseMesh {
-  positions: Int32Array;
-  faces: Uint32Array;
-  attributes: Int32Array;
-}
+/** In the order of the enumerations in codec/format/manifest.h and codec/mesh/texturing.h. */
+const kRoles: readonly PictureRole[] = ["colour", "normal", "surface", "emission"];
+const kAlphaModes: readonly TextureInfo["alphaMode"][] = ["opaque", "mask", "blend"];
 
 export class Decoder {
   protected readonly wasm: Exports;
   protected model: Pointer = 0;
   #info: ModelInfo | undefined;
   #parents = new Uint32Array(0);
-  #known = 0; // number of vertices whose parent is recorded
+  #known = 0; // number of vertices whose parent has been recorded
 
   protected constructor(instance: WebAssembly.Instance) {
     this.wasm = instance.exports as unknown as Exports;
@@ -65,7 +66,7 @@ export class Decoder {
     return new this(await WebAssembly.instantiate(module, {}));
   }
 
-  /** Returns the length in bytes of the header, of which `bytes` is the beginning. */
+  /** Returns the length of the header in bytes, given the first bytes of the file. */
   headerLength(bytes: Uint8Array): number {
     const length = this.#lend(bytes, (data, size) => this.wasm.header_length(data, size));
     if (length < 0) throw this.#error();
@@ -84,12 +85,24 @@ export class Decoder {
     if (!fits) throw new DamagedError(this.#error().message);
   }
 
-  start(base: BaseMesh): void {
-    const { positions, faces, attributes } = base;
-    const started = this.#lend(positions, (points) =>
-      this.#lend(faces, (corners) =>
-        this.#lend(attributes, (values) =>
-          this.wasm.start(this.model, points, positions.length / 3, corners, faces.length / 3, values))));
+  checkAtlas(bytes: Uint8Array): void {
+    const fits = this.#lend(bytes, (data, size) => this.wasm.check_atlas(this.model, data, size));
+    if (!fits) throw new DamagedError(this.#error().message);
+  }
+
+  /** Throws DamagedError if the picture's SHA-256 is wrong. The picture should then be fetched again. */
+  checkPicture(picture: number, bytes: Uint8Array): void {
+    const fits = this.#lend(bytes, (data, size) => this.wasm.check_picture(this.model, picture, data, size));
+    if (!fits) throw new DamagedError(this.#error().message);
+  }
+
+  /**
+   * Starts at the base mesh, given its checked Draco buffer. `atlas` holds its coded texture coordinates. It is empty if the model
+   * has no texture.
+   */
+  start(base: Uint8Array, atlas: Uint8Array): void {
+    const started = this.#lend(base, (data, size) =>
+      this.#lend(atlas, (coded, atlasSize) => this.wasm.start(this.model, data, size, coded, atlasSize)));
     if (!started) throw this.#error();
     if (this.#info) this.#info.centre = this.#readInfo().centre;
     this.#adopt();
@@ -119,19 +132,25 @@ export class Decoder {
     return this.wasm.want(this.model, kind, value);
   }
 
-  /** Returns the next chunk needed for the detail target and marks it as requested. Undefined if there is none. */
+  /**
+   * Returns the next chunk that the detail target needs, and marks it as requested. Returns
+   * undefined if there is none.
+   */
   nextChunk(): number | undefined {
     const chunk = this.wasm.next_chunk(this.model);
     return chunk < 0 ? undefined : chunk;
   }
 
-  /** Throws DamagedError if the chunk's SHA-256 is wrong; the chunk should then be fetched again. */
+  /** Throws DamagedError if the chunk's SHA-256 is wrong. The chunk should then be fetched again. */
   checkChunk(chunk: number, bytes: Uint8Array): void {
     const fits = this.#lend(bytes, (data, size) => this.wasm.check_chunk(this.model, chunk, data, size));
     if (!fits) throw new DamagedError(this.#error().message);
   }
 
-  /** Applies a checked chunk. Throws ModelError if its content is invalid; the next want() then starts over from the base mesh. */
+  /**
+   * Applies a checked chunk. Throws ModelError if the content is invalid; the next want() then
+   * starts from the base mesh again.
+   */
   apply(chunk: number, bytes: Uint8Array): void {
     const applied = this.#lend(bytes, (data, size) => this.wasm.apply(this.model, chunk, data, size));
     if (!applied) throw this.#error();
@@ -154,7 +173,7 @@ export class Decoder {
     for (; this.#known < count; ++this.#known) this.#parents[this.#known] = this.wasm.parent_of(this.model, this.#known);
   }
 
-  /** Undoes the vertex splits beyond the detail target. Call when the target is reached. */
+  /** Undoes the vertex splits beyond the detail target. Must be called after the target is reached. */
   trim(): void {
     this.wasm.trim(this.model);
   }
@@ -174,7 +193,9 @@ export class Decoder {
     const positions = new Float32Array(3 * vertices), normals = new Int16Array(4 * vertices);
     const attributes = (this.#info?.attributes ?? []).map((semantic) => (
       { semantic, values: new Uint16Array(kAttributes[semantic].width * vertices) }));
+    const coordinates = this.#info?.texture && new Float32Array(2 * vertices);
     this.#eachPiece((buffer, at, count) => {
+      coordinates?.set(new Float32Array(buffer, wasm.texture_coordinates(model), 2 * count), 2 * at);
       positions.set(new Float32Array(buffer, wasm.positions(model), 3 * count), 3 * at);
       normals.set(new Int16Array(buffer, wasm.normals(model), 4 * count), 4 * at);
       attributes.forEach(({ semantic, values }, i) => {
@@ -183,12 +204,13 @@ export class Decoder {
       });
     });
     const indices = this.#faces();
-    return { triangles: indices.length / 3, vertices, bytes: this.bytesHeld, positions, normals, attributes, indices };
+    const surface = { triangles: indices.length / 3, vertices, bytes: this.bytesHeld, positions, normals, attributes, indices };
+    return coordinates ? { ...surface, coordinates } : surface;
   }
 
   /**
-   * Reads the displayed vertices piece by piece. Calls `use` for each piece: `count` vertices, the first of which is
-   * vertex `at`.
+   * Reads the displayed vertices in pieces. Calls `use` for each piece of `count` vertices,
+   * starting at vertex `at`.
    */
   #eachPiece(use: (buffer: ArrayBuffer, at: number, count: number) => void): void {
     const wasm = this.wasm;
@@ -208,7 +230,7 @@ export class Decoder {
     return faces;
   }
 
-  #lend<T>(array: Uint8Array | Int32Array | Uint32Array | Float64Array, use: (data: Pointer, size: number) => T): T {
+  #lend<T>(array: Uint8Array | Float64Array, use: (data: Pointer, size: number) => T): T {
     const data = this.wasm.allocate(Math.max(array.byteLength, 1));
     if (data === 0) throw new ModelError("the model is too large for this browser's memory");
     try {
@@ -242,8 +264,9 @@ export class Decoder {
     });
     const chunks = Array.from({ length: at(1) }, (_, i) => {
       const k = kFixed + kLevel * levels.length + kChunk * i;
-      return { level: at(k), region: at(k + 1), offset: at(k + 2), length: at(k + 3), sha256: this.#hash(i) };
+      return { level: at(k), region: at(k + 1), offset: at(k + 2), length: at(k + 3), sha256: this.#hash(wasm.chunk_hash(this.model, i)) };
     });
+    const texture = this.#readTexture(numbers.subarray(kFixed + kLevel * levels.length + kChunk * chunks.length));
     return {
       levels,
       chunks,
@@ -255,11 +278,34 @@ export class Decoder {
       step: at(7),
       unit: this.#text(wasm.unit(this.model)),
       centre: [at(8), at(9), at(10)],
+      ...(texture && { texture }),
     };
   }
 
-  #hash(chunk: number): string {
-    const pointer = this.wasm.chunk_hash(this.model, chunk);
+  /** Reads the end of the summary, which is empty if the model has no texture. */
+  #readTexture(numbers: Float64Array): TextureInfo | undefined {
+    if (numbers.length === 0) return undefined;
+    const at = (i: number) => numbers[i] ?? 0;
+    const kFixed = 8, kPicture = 4;
+    return {
+      atlasOffset: at(0),
+      atlasLength: at(1),
+      alphaMode: kAlphaModes[at(2)] ?? "opaque",
+      alphaCutoff: at(3),
+      isDoubleSided: at(4) === 1,
+      isUnlit: at(5) === 1,
+      pictures: Array.from({ length: at(6) }, (_, i) => {
+        const k = kFixed + kPicture * i;
+        return {
+          role: kRoles[at(k)] ?? "colour", side: at(k + 1), offset: at(k + 2), length: at(k + 3),
+          sha256: this.#hash(this.wasm.picture_hash(this.model, i)),
+        };
+      }),
+      inHead: at(7),
+    };
+  }
+
+  #hash(pointer: Pointer): string {
     const digest = new Uint8Array(this.wasm.memory.buffer, pointer, 32);
     return Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
   }

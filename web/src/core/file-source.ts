@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a plain .pmesh file from any static host. If the host supports Range requests, each part of the file is
-// fetched with its own request. A host that ignores Range sends the whole file once; its parts are then used as
-// they arrive, without waiting for the end of the file.
+// Reads a plain .pmesh file from any static host. If the host supports Range requests, fetches the
+// start of the file, and then each part with a request of its own. A host that ignores Range sends
+// the whole file once. Bytes are used as they arrive, without waiting for the end of a response.
 import { refused, unreachable, type ByteRange, type Source } from "./source.ts";
 import { ModelError } from "./types.ts";
 
-/** Bytes of the first request: enough for the header and base mesh of most models. */
-const kHeadBytes = 32 * 1024;
+/** Bytes of the first request. They are enough for the header and base mesh of most models. */
+const kStart = 32 * 1024;
+/** Bytes that head() waits for. On a slow line, the base mesh may arrive long before the other bytes of the start. */
+const kHead = 1024;
 
 export class FileSource implements Source {
-  readonly #life = new AbortController(); // controller that can abort a download of the whole file
-  #whole: Download | undefined;
-  // First bytes of the file, if the host supports Range; may include the first chunks.
-  #head: Uint8Array = new Uint8Array(0);
+  readonly #life = new AbortController(); // aborts the first download
+  #download: Download | undefined;
+  #end = 0; // end of the bytes that the first download has
 
   constructor(private readonly url: string) {}
 
-  /** Returns the file's first bytes, at most kHeadBytes. */
+  /** Returns the file's first bytes, at most kHead. */
   async head(signal: AbortSignal): Promise<Uint8Array> {
-    const response = await this.#request(0, kHeadBytes, this.#life.signal);
-    if (response.status === 206) return (this.#head = await body(response));
-    this.#whole = new Download(response);
-    return this.#whole.slice(0, kHeadBytes, signal);
+    const response = await this.#request(0, kStart, this.#life.signal);
+    this.#end = response.status === 206 ? kStart : Infinity;
+    this.#download = new Download(response);
+    return this.#download.slice(0, kHead, signal);
   }
 
   async getBytes({ offset, length }: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
-    if (offset + length <= this.#head.length) return this.#head.slice(offset, offset + length);
-    const bytes = this.#whole
-      ? await this.#whole.slice(offset, offset + length, signal)
-      : await this.#range(offset, length, signal);
+    const end = offset + length, border = Math.min(Math.max(offset, this.#end), end);
+    const bytes = border === end ? await this.#downloaded(offset, end, signal)
+      : border === offset ? await this.#range(offset, end, signal)
+      : joined(await Promise.all([this.#downloaded(offset, border, signal), this.#range(border, end, signal)]));
     if (bytes.length === length) return bytes;
     throw new ModelError("the model file ends too early: upload it again");
   }
@@ -37,10 +38,14 @@ export class FileSource implements Source {
     this.#life.abort();
   }
 
-  async #range(offset: number, length: number, signal: AbortSignal): Promise<Uint8Array> {
-    const response = await this.#request(offset, length, signal);
+  async #downloaded(begin: number, end: number, signal: AbortSignal): Promise<Uint8Array> {
+    return (await this.#download?.slice(begin, end, signal)) ?? new Uint8Array(0);
+  }
+
+  async #range(begin: number, end: number, signal: AbortSignal): Promise<Uint8Array> {
+    const response = await this.#request(begin, end - begin, signal);
     const bytes = await body(response);
-    return response.status === 206 ? bytes : bytes.slice(offset, offset + length);
+    return response.status === 206 ? bytes : bytes.slice(begin, end);
   }
 
   async #request(offset: number, length: number, signal: AbortSignal): Promise<Response> {
@@ -64,7 +69,14 @@ async function body(response: Response): Promise<Uint8Array> {
   }
 }
 
-/** A whole file being downloaded. */
+function joined([first, second]: [Uint8Array, Uint8Array]): Uint8Array {
+  const bytes = new Uint8Array(first.length + second.length);
+  bytes.set(first);
+  bytes.set(second, first.length);
+  return bytes;
+}
+
+/** A response whose bytes can be used while they arrive. */
 class Download {
   #bytes = new Uint8Array(1 << 16);
   #size = 0;
@@ -79,7 +91,7 @@ class Download {
     });
   }
 
-  /** Resolves to the bytes [begin, end) when they have arrived; fewer if the file ends earlier. */
+  /** Resolves to the bytes [begin, end) when they have arrived. Resolves to fewer bytes if the file ends earlier. */
   async slice(begin: number, end: number, signal: AbortSignal): Promise<Uint8Array> {
     const wake = () => this.#notify();
     signal.addEventListener("abort", wake);

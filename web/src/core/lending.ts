@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pool of the buffers that carry blocks to the page, which returns them. It bounds the memory in transit
-// for changes of any size, and saves allocating a buffer for each block.
+// Pool of the buffers that carry blocks to the page. The page returns them. The pool bounds the
+// memory in transit for changes of any size, and avoids allocating a buffer for each block.
 import { kBlockBytes } from "./change.ts";
 
-/** Maximum number of buffers in transit; together they have 4 MiB. */
+/** Maximum number of buffers in transit. Together they have 4 MiB. */
 const kBuffers = 64;
 
 export class Lending {
@@ -12,7 +12,7 @@ export class Lending {
   #isClosed = false;
   #wake: (() => void) | undefined;
 
-  /** Resolves to a buffer when one is free, or to undefined if the pool is closed. */
+  /** Resolves to a buffer when one is free. Resolves to undefined if the pool is closed. */
   async borrow(): Promise<ArrayBuffer | undefined> {
     while (!this.#isClosed && this.#idle.length === 0 && this.#made === kBuffers) {
       await new Promise<void>((resolve) => (this.#wake = resolve));

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The messages between page and worker. `id` identifies a model, `turn` a detail request.
+import type { Assets } from "./assets.ts";
 import type { Transport } from "./source.ts";
 import type { Block, Change, ModelInfo, Progress, Want } from "./types.ts";
-
-/** Absolute URLs of the files that the worker loads. */
-export interface Assets {
-  wasm: string;
-  dracoScript: string;
-  dracoWasm: string;
-}
 
 export type ToWorker =
   | { type: "open"; id: number; url: string; transport: Transport; token: string; assets: Assets; isRestart: boolean }
   | { type: "refine"; id: number; turn: number; want: Want }
+  | { type: "showPicture"; id: number; index: number; side: number }
   | { type: "taken"; id: number; buffers: ArrayBuffer[] }
   | { type: "shown"; id: number }
   | { type: "close"; id: number };
@@ -21,6 +16,7 @@ export type FromWorker =
   | { type: "opened"; id: number; info: ModelInfo }
   | { type: "change"; id: number; change: Change }
   | { type: "block"; id: number; block: Block }
+  | { type: "picture"; id: number; index: number; bands: ImageBitmap[] }
   | { type: "stalled"; id: number; reason: string | undefined }
   | { type: "progress"; id: number; progress: Progress }
   | { type: "ready"; id: number }

@@ -5,10 +5,14 @@ import { FileSource } from "./file-source.ts";
 import type { Source, Transport } from "./source.ts";
 import { StreamSource } from "./stream-source.ts";
 
-/** Opens the source for the URL of a .pmesh file, a model page or an API model. A token is sent only to a daemon. */
+/**
+ * Opens the source for the URL of a .pmesh file, a model page or a model in the API. Sends the
+ * token only to a daemon.
+ */
 export function openSource(url: string, transport: Transport, token: string): Source {
   const address = new URL(url);
-  // A model ID has no dot, so /models/bust.pmesh is a file in a folder called "models".
+  // A model ID has no dot. So /models/bust.pmesh is not a model page, but a file in a folder
+  // "models".
   const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/.]+)\/?$/.exec(address.pathname);
   if (!model) return new FileSource(url);
   const api = `${address.origin}${model[1]}/api/v1`, id = model[2] ?? "";

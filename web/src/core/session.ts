@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refines one model. Requests from the source the chunks that the planner chooses, several at a time, applies
-// them in the planner's order and offers each state for display. A new detail request supersedes the previous
-// one before the next chunk is applied. Fetched chunks are kept, so applying them again needs no download.
+// Refines one model. The planner chooses the chunks. The session requests them from the source,
+// several at a time, applies them in the planner's order, and offers each state for display. A new
+// detail request replaces the previous one before the next chunk is applied. Fetched chunks are
+// kept, so applying them again needs no download.
 import { Shown, type Piece } from "./change.ts";
-import type { BaseMesh } from "./decoder.ts";
 import type { Source } from "./source.ts";
 import {
   DamagedError, ModelError, UnreachableError,
-  type Change, type Chunk, type Level, type ModelInfo, type Progress, type Surface, type Want,
+  type Change, type Chunk, type Level, type ModelInfo, type Picture, type Progress, type Surface, type TextureInfo, type Want,
 } from "./types.ts";
 
 /** The part of the decoder (decoder.ts) that a session uses. */
@@ -15,7 +15,9 @@ export interface ModelDecoder {
   headerLength(bytes: Uint8Array): number;
   open(header: Uint8Array): ModelInfo;
   checkBase(bytes: Uint8Array): void;
-  start(base: BaseMesh): void;
+  checkAtlas(bytes: Uint8Array): void;
+  checkPicture(picture: number, bytes: Uint8Array): void;
+  start(base: Uint8Array, atlas: Uint8Array): void;
   want(want: Want): boolean;
   nextChunk(): number | undefined;
   checkChunk(chunk: number, bytes: Uint8Array): void;
@@ -26,26 +28,29 @@ export interface ModelDecoder {
   surface(): Surface;
 }
 
-/** Receives the changes and reports of a session. */
+/** Receives the changes and the reports of a session. */
 export interface Sink {
-  /** Called when the header and base mesh have arrived; the first surface follows. */
+  /** Called when the head has arrived. The pictures of the head and the first surface follow. */
   opened(info: ModelInfo): void;
-  /** Displays a change. Resolves when the change is displayed; only then does the session send the next one. */
+  /** Decodes a picture and displays it in a size of `side` by `side` pixels. Resolves when it is decoded. */
+  picture(index: number, picture: Picture, side: number, bytes: Uint8Array): Promise<void>;
+  /** Displays a change. Resolves when the change is displayed. The session sends the next change only after that. */
   show(change: Change, pieces: Piece[]): Promise<void>;
   progress(progress: Progress): void;
-  /** Called with the reason when the server does not respond, and with undefined when it responds again. */
+  /** Called with a reason when the server stops responding, and with undefined when it responds again. */
   stalled(reason: string | undefined): void;
 }
 
 export type RetryDelay = (milliseconds: number) => Promise<void>;
 
-export type BaseDecoder = (bytes: Uint8Array, info: ModelInfo) => Promise<BaseMesh>;
-
-/** Maximum number of concurrent requests. */
+/** Maximum number of requests in progress at the same time. */
 const kWindow = 6;
-/** Maximum size of header and base mesh, in bytes. */
+/** Maximum size of the head, in bytes. */
 const kMaxHead = 256 * 1024 * 1024;
-/** Milliseconds before the first retry of a failed request. The wait doubles at each retry, up to kLongestWait. */
+/**
+ * Milliseconds before the first retry of a failed request. The waiting time doubles at each retry,
+ * up to kLongestWait.
+ */
 const kFirstWait = 500, kLongestWait = 15_000;
 
 interface Fetch {
@@ -57,46 +62,51 @@ interface Fetch {
 export class Session {
   readonly #fetches = new Map<number, Fetch>();
   #info: ModelInfo | undefined;
+  #pictures: Uint8Array[] = []; // fetched files, kept for a page that needs another size or loses its graphics memory
   #turn = 0;
   #showing: Promise<void> | undefined;
   #isStale = false;
   readonly #shown = new Shown();
   #isRenumbered = false; // whether the decoder was reset to the base mesh since the last state was shown
-  #isBehind = false; // whether the surface shown is finer than the decoder's surface
+  #isBehind = false; // whether the decoder's surface is still coarser than the surface shown
   #isStalled = false;
 
   constructor(
     private readonly source: Source,
     private readonly decoder: ModelDecoder,
-    private readonly decodeBase: BaseDecoder,
     private readonly sink: Sink,
-    /** Aborted by close(); the caller may have started requests with its signal. */
+    /** Aborted by close(). The caller of open() may have started a request with its signal. */
     private readonly life = new AbortController(),
     private readonly wait: RetryDelay = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
   ) {}
 
   /**
-   * Fetches the header and base mesh. Resolves when the base mesh is displayed; requests no enhancement
-   * layer. With `isRestart`, a finer surface is displayed already and stays until a detail request is reached.
+   * Fetches the head. Resolves when the base mesh is displayed, with the pictures of the head.
+   * Requests no enhancement layer. With `isRestart`, a finer surface is already displayed, and stays until a
+   * detail request is reached.
    */
   async open(isRestart = false, asked = this.source.head(this.life.signal)): Promise<void> {
     const { signal } = this.life;
     let head = await asked;
     head = await this.#extend(head, this.decoder.headerLength(head));
     const info = (this.#info = this.decoder.open(head));
-    const end = info.baseOffset + info.baseLength;
-    head = await this.#extend(head, end);
-    const base = head.subarray(info.baseOffset, end);
+    head = await this.#extend(head, this.#level(0).cumulativeBytes);
+    const base = part(head, info.baseOffset, info.baseLength);
     this.decoder.checkBase(base);
-    this.decoder.start(await this.decodeBase(base, info));
-    signal.throwIfAborted();
+    this.decoder.start(base, this.#atlas(head, info.texture));
     this.sink.opened(info);
+    this.#pictures = picturesOf(head, info.texture);
+    await Promise.all(this.#pictures.map((_, index) => this.showPicture(index)));
+    signal.throwIfAborted();
     this.#isBehind = isRestart;
     this.#present();
     await this.#showing;
   }
 
-  /** Refines or coarsens to `want`. Resolves to true when it is reached and shown, to false if superseded. */
+  /**
+   * Refines or coarsens to `want`. Resolves to true when `want` is reached and shown. Resolves to
+   * false if a later request replaces it.
+   */
   async refine(want: Want): Promise<boolean> {
     const turn = ++this.#turn;
     if (this.decoder.want(want)) this.#isRenumbered = this.#isBehind = true;
@@ -121,6 +131,25 @@ export class Session {
     return turn === this.#turn;
   }
 
+  /**
+   * Fetches a picture and offers it for display in a size of `side` by `side` pixels, which is that of the file by default.
+   * Resolves when it is decoded. Fetched files are kept, because another size may be needed later.
+   */
+  async showPicture(index: number, side?: number): Promise<void> {
+    const picture = this.#info?.texture?.pictures[index];
+    if (!picture) throw new ModelError(`the model has no picture ${index}`);
+    const { offset, length, sha256 } = picture;
+    const show = async () => {
+      const bytes = this.#pictures[index] ?? (await this.source.getBytes({ offset, length, sha256 }, this.life.signal));
+      this.#stall(undefined);
+      this.decoder.checkPicture(index, bytes);
+      this.#pictures[index] = bytes;
+      await this.sink.picture(index, picture, side ?? picture.side, bytes);
+      return true;
+    };
+    await this.#persist(show, () => undefined, () => !this.life.signal.aborted);
+  }
+
   close(): void {
     ++this.#turn;
     this.life.abort();
@@ -138,6 +167,14 @@ export class Session {
     return joined;
   }
 
+  /** Returns the checked atlas of the base mesh. It is empty if the model has no texture. */
+  #atlas(head: Uint8Array, texture: TextureInfo | undefined): Uint8Array {
+    if (!texture) return new Uint8Array();
+    const atlas = part(head, texture.atlasOffset, texture.atlasLength);
+    this.decoder.checkAtlas(atlas);
+    return atlas;
+  }
+
   /** Returns the chunks that the detail request still needs, in the planner's order. */
   #plan(): number[] {
     const plan = [];
@@ -145,7 +182,7 @@ export class Session {
     return plan;
   }
 
-  /** Returns the indices of the chunks already fetched, in ascending order. */
+  /** Returns the indices of the chunks that have been fetched, in ascending order. */
   #held(): number[] {
     return [...this.#fetches].flatMap(([chunk, { isDone }]) => (isDone ? [chunk] : [])).sort((a, b) => a - b);
   }
@@ -164,7 +201,10 @@ export class Session {
     return bytes;
   }
 
-  /** Aborts the requests for chunks that are not in `plan`. Fetched chunks are kept; they can be applied again. */
+  /**
+   * Aborts the requests for chunks that are not in `plan`. Keeps fetched chunks, because they can
+   * be applied again.
+   */
   #abandon(plan: number[]): void {
     const wanted = new Set(plan);
     for (const [chunk, { abort, isDone }] of this.#fetches) {
@@ -175,21 +215,37 @@ export class Session {
   }
 
   /**
-   * Fetches and applies a chunk. Resolves to false if the detail request was superseded meanwhile. If the chunk is
-   * damaged, fetches it a second time. If the server cannot be reached, retries until the chunk arrives.
+   * Fetches and applies a chunk. Resolves to false if a later detail request has replaced the
+   * current one.
    */
-  async #apply(chunk: number, ask: () => void, isCurrent: () => boolean): Promise<boolean> {
-    for (let damaged = 0, lost = 0; ; ) {
+  #apply(chunk: number, ask: () => void, isCurrent: () => boolean): Promise<boolean> {
+    const apply = async () => {
+      const bytes = await this.#fetch(chunk);
+      if (!isCurrent()) return false;
+      this.#stall(undefined);
       try {
-        const bytes = await this.#fetch(chunk);
-        if (!isCurrent()) return false;
-        this.#stall(undefined);
         this.decoder.checkChunk(chunk, bytes);
         this.decoder.apply(chunk, bytes);
-        return true;
+      } catch (error) {
+        this.#fetches.delete(chunk);
+        throw error;
+      }
+      return true;
+    };
+    return this.#persist(apply, ask, isCurrent);
+  }
+
+  /**
+   * Returns the result of `attempt`. If its data are damaged, tries a second time. If the server
+   * cannot be reached, retries until it can, and calls `ask` before each retry. Resolves to false
+   * when the result is no longer needed.
+   */
+  async #persist(attempt: () => Promise<boolean>, ask: () => void, isCurrent: () => boolean): Promise<boolean> {
+    for (let damaged = 0, lost = 0; ; ) {
+      try {
+        return await attempt();
       } catch (error) {
         if (!isCurrent()) return false;
-        this.#fetches.delete(chunk);
         if (error instanceof DamagedError ? ++damaged === 2 : !(error instanceof UnreachableError)) throw error;
         if (error instanceof DamagedError) continue;
         this.#stall((error as Error).message);
@@ -206,8 +262,8 @@ export class Session {
   }
 
   /**
-   * Shows the decoder's current state, immediately or after the state that is being displayed. Does nothing while
-   * that state is coarser than the surface shown.
+   * Shows the decoder's current state. If an earlier state is still being displayed, waits for that
+   * first. Does nothing while the decoder's state is coarser than the surface shown.
    */
   #present(): void {
     if (this.#isBehind) return;
@@ -236,7 +292,16 @@ export class Session {
   }
 }
 
-/** Yields to the event loop, so that pending messages (a new detail request, close) are handled. */
+/** Returns copies of the pictures of the head. */
+function picturesOf(head: Uint8Array, texture: TextureInfo | undefined): Uint8Array[] {
+  return texture?.pictures.slice(0, texture.inHead).map(({ offset, length }) => head.slice(offset, offset + length)) ?? [];
+}
+
+function part(bytes: Uint8Array, offset: number, length: number): Uint8Array {
+  return bytes.subarray(offset, offset + length);
+}
+
+/** Yields to the event loop, so that pending messages are handled, such as a new detail request or close. */
 function breathe(): Promise<void> {
   return new Promise((resolve) => {
     const { port1, port2 } = new MessageChannel();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface of the sources from which a model's bytes are read, and the errors that all sources share.
+// The interface of the sources that deliver a model's bytes, and the errors that all sources share.
 import { ModelError, UnreachableError, type Want } from "./types.ts";
 
 /** How to fetch from the daemon: one URL per chunk ("http"), or a WebSocket stream ("ws"). "auto" means "http". */
@@ -17,16 +17,20 @@ export interface ByteRange {
 }
 
 export interface Source {
-  /** Resolves to the start of the file: the header and, if one request can fetch both, the base mesh. */
+  /** Resolves to the start of the file: the header, and also the rest of the head if one request can fetch both. */
   head(signal: AbortSignal): Promise<Uint8Array>;
-  /** Resolves to exactly `range.length` bytes. Rejects with ModelError, or with AbortError if aborted. */
+  /**
+   * Resolves to exactly `range.length` bytes. Rejects with ModelError on a failure, and with
+   * AbortError if aborted.
+   */
   getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array>;
   /**
-   * Sends the detail request to the server, which then pushes the chunks that it needs. Missing in sources that only
-   * fetch chunks one by one. `have` lists the indices of the chunks that the client already has.
+   * Sends the detail request to the server, which then sends the chunks that are needed. `have`
+   * lists the indices of the chunks that the client already has. Sources that fetch chunks one by
+   * one do not have this function.
    */
   want?(want: Want, have: number[]): void;
-  /** Ends pending transfers. */
+  /** Ends transfers in progress. */
   close(): void;
 }
 

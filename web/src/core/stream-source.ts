@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Client of the daemon's WebSocket stream (server/stream/PROTOCOL.md). The server sends the head first,
-// then the chunks that a detail request needs, without a request per chunk. Chunks that the stream does not send
-// are fetched over HTTP.
+// Client of the daemon's WebSocket stream (server/stream/PROTOCOL.md). The server sends the head
+// first. Then it sends all chunks that a detail request needs, without a request per chunk. Chunks
+// that the stream does not send are fetched over HTTP.
 import { ApiSource } from "./api-source.ts";
 import type { ByteRange, Source } from "./source.ts";
 import type { Want } from "./types.ts";
@@ -12,7 +12,7 @@ const kMaxChunk = 64 * 1024 * 1024;
 const kMostRanges = 2048;
 const kHead = "0/0";
 
-/** A partly received chunk. Its slices arrive in order, but slices of other chunks may arrive in between. */
+/** A partly received chunk. Its slices arrive in order, possibly with slices of other chunks between them. */
 interface PartialChunk {
   bytes: Uint8Array;
   filled: number;
@@ -59,6 +59,7 @@ export class StreamSource implements Source {
   }
 
   async getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
+    if (range.level === undefined) return this.#http.getBytes(range, signal); // the stream sends only chunks
     const key = `${range.level}/${range.region}`;
     const isStreamed = this.#isBusy && !this.#taken.has(key);
     const bytes = this.#arrived.get(key) ?? (isStreamed ? await this.#wait(key, signal) : undefined);
@@ -85,7 +86,7 @@ export class StreamSource implements Source {
         if (typeof data === "string") this.#receiveText(data);
         else this.#receive(data as ArrayBuffer);
       } catch {
-        socket.close(1000); // not a pmesh.v1 message: fetch the rest over HTTP
+        socket.close(1000); // not a pmesh.v1 message, so the rest is fetched over HTTP
       }
     };
     socket.onclose = () => socket === this.#socket && this.#miss();
@@ -99,7 +100,9 @@ export class StreamSource implements Source {
   #receiveText(text: string): void {
     const message = JSON.parse(text) as { type?: unknown; turn?: unknown; sha256?: unknown };
     if (message.type === "model") {
-      if (this.#sha256 && message.sha256 !== this.#sha256) return this.#socket?.close(1000); // the file was replaced, so its chunks differ
+      // If the hash changes, the file was replaced, and chunks of the old file do not fit the new
+      // one.
+      if (this.#sha256 && message.sha256 !== this.#sha256) return this.#socket?.close(1000);
       this.#sha256 = String(message.sha256);
     }
     if (message.type === "done" && message.turn === this.#turn) this.#miss();
@@ -127,7 +130,7 @@ export class StreamSource implements Source {
     this.#waiting.get(key)?.take(bytes);
   }
 
-  /** Called when the stream sends no more chunks for now. Chunks that are still awaited are then fetched over HTTP. */
+  /** Called when the stream sends no more chunks for now. Fetches the missing chunks over HTTP. */
   #miss(): void {
     this.#isBusy = false;
     for (const waiter of this.#waiting.values()) waiter.miss();

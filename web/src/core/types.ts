@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types that the stages of the viewer exchange; they depend on neither three.js nor the DOM.
+// Types that the stages of the viewer exchange. They depend on neither three.js nor the DOM.
 import type { Attribute, Semantic } from "./attributes.ts";
 
-/** The view of a perspective camera on a model, with limits on the detail. */
+/** A view of a model by a perspective camera, with limits on the detail. */
 export interface CameraView {
   /** 4x4 matrix from camera to model coordinates, 16 numbers in column-major order. The camera looks along its -z axis. */
   camera: number[];
-  /** Vertical field of view, degrees. */
+  /** Vertical field of view, in degrees. */
   fov: number;
   /** Size of the viewport in device pixels. */
   width: number;
   height: number;
-  /** Largest acceptable screen-space error, device pixels. */
+  /** Largest acceptable screen-space error, in device pixels. */
   pixels: number;
   /** Maximum size of the model in bytes and triangles, including header and base mesh. */
   bytes?: number;
   triangles?: number;
 }
 
-/** A detail request. `error` is in model units; level 0 is the base mesh. */
+/** A detail request. `error` is the largest acceptable error in model units. Level 0 is the base mesh. */
 export type Want = { triangles: number } | { bytes: number } | { error: number } | { level: number } | { view: CameraView };
 
 export interface Level {
@@ -27,7 +27,7 @@ export interface Level {
   /** Errors in model units. */
   maxError: number;
   rmsError: number;
-  /** Bytes of the file up to and including this level. */
+  /** Bytes from the start of the file to the end of this level. */
   cumulativeBytes: number;
 }
 
@@ -41,8 +41,37 @@ export interface Chunk {
   sha256: string;
 }
 
+/** The content of a picture. `surface` holds occlusion (red), roughness (green) and metallic (blue). */
+export type PictureRole = "colour" | "normal" | "surface" | "emission";
+
+/** A square WebP picture of the model's surface. */
+export interface Picture {
+  role: PictureRole;
+  /** Width and height, in pixels. */
+  side: number;
+  /** Position in the file, in bytes from the start. */
+  offset: number;
+  length: number;
+  /** 64 lower-case hexadecimal digits. */
+  sha256: string;
+}
+
+export interface TextureInfo {
+  /** Position of the base mesh's texture coordinates in the file, in bytes. */
+  atlasOffset: number;
+  atlasLength: number;
+  alphaMode: "opaque" | "mask" | "blend";
+  /** Smallest visible opacity, if `alphaMode` is "mask". */
+  alphaCutoff: number;
+  isDoubleSided: boolean;
+  isUnlit: boolean;
+  /** In ascending order of `side`. The first `inHead` pictures follow the base mesh. */
+  pictures: Picture[];
+  inHead: number;
+}
+
 export interface ModelInfo {
-  /** All levels: levels[0] is the base mesh, and the last one is full resolution. */
+  /** All levels. levels[0] is the base mesh; the last level is full resolution. */
   levels: Level[];
   chunks: Chunk[];
   baseOffset: number;
@@ -54,11 +83,15 @@ export interface ModelInfo {
   step: number;
   /** The unit of the model's coordinates, or "" if unknown. */
   unit: string;
-  /** The surface's origin in model coordinates. */
+  /** The origin of surface positions, in model coordinates. */
   centre: [number, number, number];
+  texture?: TextureInfo;
 }
 
-/** A state of the surface, ready for display. */
+/**
+ * A state of the surface that is ready for display. If the model has a texture, a vertex on the border of two charts
+ * occurs once for each of its texture coordinates.
+ */
 export interface Surface {
   triangles: number;
   vertices: number;
@@ -66,10 +99,12 @@ export interface Surface {
   bytes: number;
   /** 3 coordinates per vertex, in model units relative to `ModelInfo.centre`. */
   positions: Float32Array;
-  /** 4 numbers per vertex: the unit normal times 32767, and 0. */
+  /** 4 numbers per vertex: the unit normal scaled by 32767, and 0. */
   normals: Int16Array;
   /** The model's attributes, each with the width given in attributes.ts. Colours are linear; 65535 stands for 1. */
   attributes: Attribute<Uint16Array>[];
+  /** 2 texture coordinates per vertex, from (0, 0) in the upper left corner of the pictures. Absent without a texture. */
+  coordinates?: Float32Array;
   /** 3 vertex indices per triangle. */
   indices: Uint32Array;
 }
@@ -77,12 +112,14 @@ export interface Surface {
 export type NumericArray = Float32Array | Int16Array | Uint16Array | Uint32Array;
 
 /**
- * Names of the arrays of a surface. The `from…` arrays have 4 numbers per vertex: the position or normal from which
- * the vertex morphs. In `fromPositions`, the fourth is the number of the change that moves the vertex.
+ * Names of the arrays of a surface. The `from…` arrays hold the values from which a vertex morphs.
+ * `fromPositions` and `fromNormals` have 4 numbers per vertex. In `fromPositions`, the fourth is the
+ * number of the change that moves the vertex.
  */
-export type SurfaceArray = "positions" | "normals" | Semantic | "indices" | "fromPositions" | "fromNormals";
+export type SurfaceArray =
+  | "positions" | "normals" | Semantic | "coordinates" | "indices" | "fromPositions" | "fromNormals" | "fromCoordinates";
 
-/** The next state of the surface. Its new data follow in `blocks` blocks. */
+/** The change to the next state of the surface. Its data follow in `blocks` blocks. */
 export interface Change extends Pick<Surface, "triangles" | "vertices" | "bytes"> {
   /** Number of the change, counted from 1. */
   number: number;
@@ -96,13 +133,13 @@ export interface Place {
   count: number;
 }
 
-/** The data of a range, at the start of `buffer`. The buffer is borrowed and must be given back. */
+/** The data of a range, at the start of `buffer`. The receiver must give the buffer back. */
 export interface Block extends Place {
   buffer: ArrayBuffer;
 }
 
 export interface Progress {
-  /** Bytes of the current state; `total` is the number of bytes of the requested state. */
+  /** Size of the current state in bytes. `total` is the size of the requested state. */
   bytes: number;
   total: number;
 }
@@ -112,12 +149,12 @@ export class ModelError extends Error {
   override name: string = "ModelError";
 }
 
-/** The received bytes do not match their hash or length; a second attempt may succeed. */
+/** The received bytes do not match their hash or length. A second attempt may succeed. */
 export class DamagedError extends ModelError {
   override name = "DamagedError";
 }
 
-/** The server does not respond or is overloaded (429, 5xx); a later attempt may succeed. */
+/** The server does not respond or is overloaded (429, 5xx). A later attempt may succeed. */
 export class UnreachableError extends ModelError {
   override name = "UnreachableError";
 }

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worker: fetches, decodes and plans for all models of a page, so that the page stays responsive.
+// The worker. It fetches, decodes and plans for all models of a page, so that the page stays
+// responsive.
+import type { Assets } from "./assets.ts";
 import type { Piece } from "./change.ts";
 import { Decoder } from "./decoder.ts";
-import { decodeBase, type DracoModule } from "./draco.ts";
+import { decodePicture } from "./picture-bands.ts";
 import { Lending } from "./lending.ts";
-import type { Assets, FromWorker, ToWorker } from "./messages.ts";
+import type { FromWorker, ToWorker } from "./messages.ts";
+import { PolicyWatch } from "./policy.ts";
 import { Session, type Sink } from "./session.ts";
 import { openSource } from "./open-source.ts";
-import { readAll } from "./source.ts";
 import { ModelError } from "./types.ts";
 
-declare const self: {
+declare const self: EventTarget & {
   onmessage: ((event: MessageEvent<ToWorker>) => void) | null;
   postMessage(message: FromWorker, transfer?: Transferable[]): void;
 };
-declare function importScripts(url: string): void;
-declare const DracoDecoderModule: (options: { wasmBinary: Uint8Array }) => Promise<DracoModule>;
 
 type Address = Pick<Extract<ToWorker, { type: "open" }>, "url" | "transport" | "token">;
 
@@ -29,12 +29,13 @@ interface WorkerModel {
 }
 
 const models = new Map<number, WorkerModel>();
+const policy = new PolicyWatch(self);
 let wasm: Promise<WebAssembly.Module> | undefined;
-let draco: Promise<DracoModule> | undefined;
 
 self.onmessage = ({ data }) => {
   if (data.type === "open") open(data);
   else if (data.type === "refine") void refine(data);
+  else if (data.type === "showPicture") void showPicture(data);
   else if (data.type === "taken") models.get(data.id)?.lending.giveBack(data.buffers);
   else if (data.type === "shown") models.get(data.id)?.shown();
   else close(data.id);
@@ -46,23 +47,21 @@ function open({ id, isRestart, assets, ...address }: Extract<ToWorker, { type: "
   models.set(id, { session: session.then((created) => created.session), opened, lending: new Lending(), shown: () => undefined });
   opened
     .then(() => self.postMessage({ type: "ready", id }))
-    .catch((error) => fail(id, undefined, error));
+    .catch((error) => void fail(id, undefined, error));
 }
 
-/** Starts all downloads in parallel: the model's head does not wait for the decoders. */
+/** Opens a model. Downloads the model's head and the decoder in parallel. */
 async function create(id: number, { url, transport, token }: Address, assets: Assets): Promise<{ session: Session; head: Promise<Uint8Array> }> {
   const source = openSource(url, transport, token), life = new AbortController();
   const head = source.head(life.signal);
   wasm ??= compile(assets.wasm);
-  draco ??= loadDraco(assets);
-  // Failures are reported where the promises are awaited. The next model that is opened loads the files again.
+  // Errors are reported where the promises are awaited. After an error, the next model that is
+  // opened loads the decoder again.
   head.catch(() => undefined);
   wasm.catch(() => (wasm = undefined));
-  draco.catch(() => (draco = undefined));
-  const loaded = draco;
   try {
     const decoder = await Decoder.create(await wasm);
-    return { session: new Session(source, decoder, async (bytes, info) => decodeBase(await loaded, bytes, info), sink(id), life), head };
+    return { session: new Session(source, decoder, sink(id), life), head };
   } catch (error) {
     life.abort();
     source.close();
@@ -73,6 +72,10 @@ async function create(id: number, { url, transport, token }: Address, assets: As
 function sink(id: number): Sink {
   return {
     opened: (info) => self.postMessage({ type: "opened", id, info }),
+    picture: async (index, picture, side, bytes) => {
+      const bands = await decodePicture(bytes, picture.side, side);
+      self.postMessage({ type: "picture", id, index, bands }, bands);
+    },
     progress: (progress) => self.postMessage({ type: "progress", id, progress }),
     stalled: (reason) => self.postMessage({ type: "stalled", id, reason }),
     show: async (change, pieces) => {
@@ -86,7 +89,7 @@ function sink(id: number): Sink {
   };
 }
 
-/** Sends the pieces as fast as buffers are returned. Resolves to false if the model was closed meanwhile. */
+/** Sends the pieces to the page whenever a buffer is free. Resolves to false if the model was closed meanwhile. */
 async function lend(id: number, pieces: Piece[], lending: Lending): Promise<boolean> {
   for (const { part, first, count, write } of pieces) {
     const buffer = await lending.borrow();
@@ -104,7 +107,19 @@ async function refine({ id, turn, want }: Extract<ToWorker, { type: "refine" }>)
     const isReached = (await (await model?.session)?.refine(want)) ?? false;
     self.postMessage({ type: "settled", id, turn, isReached });
   } catch (error) {
-    fail(id, turn, error);
+    void fail(id, turn, error);
+  }
+}
+
+/** Shows a picture. If it cannot be fetched, the page gets no bands, and keeps the picture that it shows. */
+async function showPicture({ id, index, side }: Extract<ToWorker, { type: "showPicture" }>): Promise<void> {
+  try {
+    const model = models.get(id);
+    await model?.opened;
+    await (await model?.session)?.showPicture(index, side);
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) return void fail(id, undefined, error);
+    self.postMessage({ type: "picture", id, index, bands: [] });
   }
 }
 
@@ -116,25 +131,26 @@ function close(id: number): void {
   model?.session.then((session) => session.close()).catch(() => undefined);
 }
 
-function fail(id: number, turn: number | undefined, error: unknown): void {
+async function fail(id: number, turn: number | undefined, error: unknown): Promise<void> {
   if (!models.has(id)) return;
   if (error instanceof WebAssembly.RuntimeError) {
     close(id);
     return self.postMessage({ type: "stopped", id });
   }
   const message = error instanceof ModelError ? error.message : `the model cannot be shown: ${(error as Error).message}`;
-  self.postMessage({ type: "failed", id, turn, message });
+  const forbidden = await policy.reason();
+  self.postMessage({ type: "failed", id, turn, message: forbidden ?? message });
 }
 
 async function compile(url: string): Promise<WebAssembly.Module> {
   const response = await fetch(url);
   if (!response.ok) throw new ModelError(`the decoder is not there (${response.status}): ${url}`);
-  return WebAssembly.compile(await response.arrayBuffer());
+  const bytes = await response.arrayBuffer();
+  // Some servers send a page of theirs for a file that they do not have.
+  if (!isWasm(bytes)) throw new ModelError(`the decoder is not there (no WebAssembly): ${url}`);
+  return WebAssembly.compile(bytes);
 }
 
-async function loadDraco(assets: Assets): Promise<DracoModule> {
-  const binary = fetch(assets.dracoWasm).then((response) => readAll(response, "the decoder of base meshes"));
-  binary.catch(() => undefined); // a failure is reported below, unless the script fails first
-  importScripts(assets.dracoScript);
-  return DracoDecoderModule({ wasmBinary: await binary });
+function isWasm(bytes: ArrayBuffer): boolean {
+  return bytes.byteLength > 4 && new DataView(bytes).getUint32(0) === 0x0061736d; // "\0asm"
 }

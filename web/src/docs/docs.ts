@@ -14,7 +14,7 @@ function element<Tag extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** Converts text with `code` in backquotes to nodes. */
+/** Converts text to nodes. Parts in backquotes become <code> elements. */
 function prose(text: string): Node[] {
   return text.split("`").map((part, i) => (i % 2 ? element("code", part) : document.createTextNode(part)));
 }

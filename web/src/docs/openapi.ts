@@ -68,7 +68,7 @@ export interface ApiOperation {
 
 const nameOf = (ref: string): string => ref.slice(ref.lastIndexOf("/") + 1);
 
-/** Describes a schema in words: "integer, 1 to 200, default 50", "list of Model". */
+/** Describes a schema in words, such as "integer, 1 to 200, default 50" or "list of Model". */
 export function describe(schema: Schema): string {
   if (schema.$ref) return nameOf(schema.$ref);
   if (schema.const !== undefined) return JSON.stringify(schema.const);

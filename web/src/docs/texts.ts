@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texts of the page /docs, in English like the documentation of the API itself.
+// The texts of the page /docs. They are in English, like the documentation of the API itself.
 export const texts = {
   title: "API",
   parameters: "Parameters",

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses the attributes camera-orbit, camera-target and field-of-view, with the syntax of model-viewer.
+// Parses the attributes camera-orbit, camera-target and field-of-view, whose syntax is that of
+// model-viewer.
 
-/** A camera position in spherical coordinates: azimuth theta and polar angle phi in radians, distance from the target in model units. */
+/**
+ * A camera position in spherical coordinates: azimuth theta and polar angle phi in radians, and the
+ * distance from the target in model units.
+ */
 export interface CameraOrbit {
   theta: number;
   phi: number;
@@ -14,8 +18,8 @@ const kMetres: Record<string, number> = { m: 1, cm: 0.01, mm: 0.001, in: 0.0254 
 const kRadians: Record<string, number> = { rad: 1, deg: Math.PI / 180 };
 
 /**
- * Parses a camera position such as "30deg 75deg 105%". A part that is `auto`, missing or malformed is taken from
- * `framed`. A percentage is relative to the radius of `framed`.
+ * Parses a camera position such as "30deg 75deg 105%". Parts that are `auto`, missing or malformed
+ * are taken from `framed`. A percentage is relative to the radius of `framed`.
  */
 export function orbitOf(words: string | null, framed: CameraOrbit, unit: string): CameraOrbit {
   const [theta, phi, radius] = split(words);
@@ -27,8 +31,8 @@ export function orbitOf(words: string | null, framed: CameraOrbit, unit: string)
 }
 
 /**
- * Parses a point such as "0.1m 0m 20mm" and returns it in model coordinates. A part that is `auto`, missing or
- * malformed is taken from `centre`.
+ * Parses a point such as "0.1m 0m 20mm" and returns it in model coordinates. Parts that are `auto`,
+ * missing or malformed are taken from `centre`.
  */
 export function targetOf(words: string | null, centre: Vec3, unit: string): Vec3 {
   const parts = split(words);
@@ -36,8 +40,8 @@ export function targetOf(words: string | null, centre: Vec3, unit: string): Vec3
 }
 
 /**
- * Parses an angle such as "30deg" and returns it in degrees, limited to 1 to 120. Returns `otherwise` if it is missing
- * or malformed.
+ * Parses an angle such as "30deg" and returns it in degrees, clamped to 1 to 120. Returns
+ * `otherwise` if the text is missing or malformed.
  */
 export function fieldOfViewOf(words: string | null, otherwise: number): number {
   const radians = angle(split(words)[0]);
@@ -58,7 +62,7 @@ function angle(word: string | undefined): number | undefined {
   return scaled(value, kRadians[unit ?? ""]);
 }
 
-/** Parses a length such as "20mm" and returns it in model units. A model without a unit is assumed to be in metres. */
+/** Parses a length such as "20mm" and returns it in model units. If the model has no unit, metres are assumed. */
 function length(word: string | undefined, unit: string): number | undefined {
   const [, value, given] = /^(.*?)(mm|cm|m)$/.exec(word ?? "") ?? [];
   return scaled(value, (kMetres[given ?? ""] ?? NaN) / (kMetres[unit] ?? 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visitor's controls of detail. Buttons request the lowest level, the next finer one or the highest, and show its
-// size and estimated waiting time. A slider requests any detail between. A badge describes the surface shown.
+// The visitor's controls of detail. Buttons request the lowest level, the next finer level or the
+// highest level; they state its size and the estimated waiting time. A slider requests any detail
+// in between. A badge describes the surface shown.
 import type { ModelInfo, Want } from "../core/types.ts";
 import { inMillimetres } from "../texts/formats.ts";
 import type { ViewerTexts } from "../texts/index.ts";
@@ -24,7 +25,8 @@ export class Choice {
   readonly #line = new Throughput();
   #info: ModelInfo | undefined;
   #triangles = 0; // number of triangles shown now
-  #again: (() => void) | undefined; // function that repeats the last call of show()
+  #pictureBytes = 0; // size of all pictures fetched, except those in the file's head
+  #again: (() => void) | undefined; // repeats the last call of show()
   #texts: ViewerTexts | undefined; // undefined until the texts have been loaded
 
   constructor(private readonly root: ParentNode) {
@@ -43,7 +45,13 @@ export class Choice {
     return this.#triangles;
   }
 
-  /** Called when a download begins; starts measuring the throughput. */
+  /** Total size in bytes of the pictures fetched, except those in the file's head. */
+  set pictureBytes(bytes: number) {
+    this.#pictureBytes = bytes;
+    this.#again?.();
+  }
+
+  /** Called when a download begins. Starts measuring the throughput. */
   begin(): void {
     this.#line.begin(performance.now());
   }
@@ -55,8 +63,10 @@ export class Choice {
 
   enable(info: ModelInfo): void {
     this.#info = info;
+    this.#pictureBytes = 0;
     this.#line.sample(this.#bytesOf(0), performance.now());
-    this.#again?.(); // show() was called for the base mesh before the controls were enabled
+    // Shows the base mesh, for which show() was already called before the controls were enabled.
+    this.#again?.();
   }
 
   disable(): void {
@@ -65,8 +75,8 @@ export class Choice {
   }
 
   /**
-   * Shows the current state. `isBounded` is true if the model is refined uniformly, so that its level's error bound
-   * applies.
+   * Shows the current state. `isBounded` is true if the model is refined uniformly. The error bound
+   * of its level is valid only then.
    */
   show({ triangles, bytes }: { triangles: number; bytes: number }, isBounded: boolean): void {
     this.#again = () => this.show({ triangles, bytes }, isBounded);
@@ -75,7 +85,7 @@ export class Choice {
     if (!texts || !this.#info) return;
     const counted = texts.triangles(triangles, this.#info.levels[this.#finest]?.faces ?? triangles);
     this.#write(".triangles", counted);
-    this.#write(".bytes", texts.bytes(bytes, this.#info.fileBytes));
+    this.#write(".bytes", texts.bytes(bytes + this.#pictureBytes, this.#bytesOf(this.#finest) + this.#pictureBytes));
     const error = completeLevel(this.#info, triangles).maxError;
     this.#write(".error", isBounded ? texts.error(...inMillimetres(error, this.#info.unit)) : "");
     this.root.querySelector("[name=detail]")?.setAttribute("aria-valuetext", counted);
@@ -91,7 +101,7 @@ export class Choice {
     const refine = next === undefined
       ? this.#offer("refine", texts.complete)
       : this.#offer("refine", texts.more(this.#bytesOf(next) - this.#bytesOf(next - 1)), this.#wait(texts, this.#bytesOf(next)));
-    refine.ariaDisabled = String(next === undefined); // not `disabled`, which would lose the focus
+    refine.ariaDisabled = String(next === undefined); // unlike `disabled`, keeps the focus
   }
 
   #offer(name: ChoiceName, ...facts: string[]): HTMLButtonElement {
@@ -102,7 +112,10 @@ export class Choice {
     return button;
   }
 
-  /** Returns the estimated time until `bytes` are downloaded, as text; empty before the throughput has been measured. */
+  /**
+   * Returns the estimated time until `bytes` are downloaded, as text. The text is empty before the
+   * throughput has been measured.
+   */
   #wait(texts: ViewerTexts, bytes: number): string {
     const seconds = this.#line.secondsTo(bytes);
     if (seconds === undefined) return "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shadow tree of <progressive-mesh>: canvas, poster, messages, the controls of detail, and the container for
-// the tools (tools/toolbox.ts), which are loaded later.
+// The shadow tree of <progressive-mesh>: canvas, poster, messages, the controls of detail, and a
+// container for the tools. The tools (tools/toolbox.ts) are loaded later.
 import type { ModelInfo, Want } from "../core/types.ts";
 import type { ViewerTexts } from "../texts/index.ts";
 import { Choice, kChoice } from "./choice.ts";
@@ -21,6 +21,7 @@ const kTemplate = `
 export class Panel {
   onDetail: (fraction: number) => void = () => undefined;
   readonly choice: Choice;
+  readonly #styles = new Set<string>();
   #isHeld = false;
   #alt = "";
   #texts: ViewerTexts | undefined;
@@ -29,7 +30,8 @@ export class Panel {
   readonly view: HTMLElement;
 
   constructor(readonly root: ShadowRoot) {
-    root.innerHTML = `<style>${style}</style>${kTemplate}`;
+    this.style(style);
+    root.innerHTML = kTemplate;
     this.view = this.#find(".view");
     this.choice = new Choice(root);
     this.#detail.addEventListener("input", () => {
@@ -39,6 +41,18 @@ export class Panel {
     this.#find("form").addEventListener("submit", (event) => event.preventDefault());
   }
 
+  /**
+   * Adds a style sheet to the shadow tree, unless the tree has it. Unlike a <style> element, it works under a security policy that
+   * forbids inline styles.
+   */
+  style(css: string): void {
+    if (this.#styles.has(css)) return;
+    this.#styles.add(css);
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(css);
+    this.root.adoptedStyleSheets = [...this.root.adoptedStyleSheets, sheet];
+  }
+
   set onChoose(choose: (want: Want) => void) {
     this.choice.onChoose = (want) => {
       this.#isHeld = false;
@@ -46,7 +60,7 @@ export class Panel {
     };
   }
 
-  /** Writes all texts that do not depend on the model. */
+  /** Sets all texts that do not depend on the model. */
   set texts(texts: ViewerTexts) {
     this.#texts = this.choice.texts = texts;
     const write = (name: string, use: (place: Element, text: string) => void) => {
@@ -70,7 +84,7 @@ export class Panel {
     return fresh;
   }
 
-  /** Restores the panel's initial state, without a model. */
+  /** Restores the panel's initial state, in which there is no model. */
   reset(): void {
     this.#isHeld = false;
     this.message = "";
@@ -92,7 +106,7 @@ export class Panel {
     this.#find("slot[name=poster]").hidden = true;
   }
 
-  /** Enables the controls when the model is loaded. */
+  /** Enables the controls. Called when the model is loaded. */
   enable(info: ModelInfo): void {
     this.#detail.disabled = false;
     this.choice.enable(info);

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The custom element <progressive-mesh>.
-import { RemoteModel, assetsBeside } from "../core/client.ts";
+import { assetsWith, type Assets } from "../core/assets.ts";
+import { RemoteModel } from "../core/client.ts";
 import type { Transport } from "../core/source.ts";
 import { ModelError, type Level, type Want } from "../core/types.ts";
 import { textsFor, type ViewerTexts } from "../texts/index.ts";
+import type { ProgressiveMeshElementEventMap } from "./element-types.ts";
 import { Panel } from "./panel.ts";
 import type { CameraWords, Stage } from "./stage.ts";
+import type { ToneWords } from "./tones.ts";
 import type { Toolbox } from "./tools/toolbox.ts";
 
 /** Milliseconds between two detail requests while the camera moves. */
 const kLook = 200;
 
 const kCamera = ["camera-orbit", "camera-target", "field-of-view"];
+// A server has no HTMLElement, but imports this module when it renders a page that contains the element.
+const Base: typeof HTMLElement = globalThis.HTMLElement ?? class {};
+
+const kTones = ["tone-mapping", "exposure"];
 const kAmounts = ["max-triangles", "max-bytes", "target-error", "pixel-error"];
 
 /**
@@ -20,16 +27,19 @@ const kAmounts = ["max-triangles", "max-bytes", "target-error", "pixel-error"];
  * - `src` (the URL of a .pmesh file, a model page or an API model), `poster` and `alt`, which are also properties;
  * - `loading` (eager, or lazy: loads when near the viewport), `reveal` (auto, or manual: the poster stays until dismissPoster());
  * - `camera-controls`, `touch-action` (pan-y), `camera-orbit`, `camera-target`, `field-of-view`, `auto-rotate`;
+ * - `tone-mapping` (neutral, aces, agx, reinhard, cineon, linear or none), `exposure`, `shadow-intensity` (0 to 1, default 0);
  * - `pixel-error` (default 1): fetches what the camera sees, to an error of this many device pixels, and continues as the camera
  *   moves; 0 fetches the whole model. One of `max-triangles`, `max-bytes` and `target-error` (model units) requests a fixed state instead;
+ * - `max-texture`: the largest side, in pixels, of a picture that is fetched;
  * - `transport` (auto, http or ws).
  * Events: `first-paint` (the base mesh is on the screen, no enhancement layer has been requested
  * yet), `progress` {bytes, total}, `refine` {triangles, vertices, bytes} for each state shown,
+ * `picture` {side, texels, bytes} for each picture shown, `memory` {geometry, pictures} (bytes of graphics memory),
  * `load` (the requested detail is reached), `error` {message}, `camera-change` {source}.
  */
-export class ProgressiveMeshElement extends HTMLElement {
+export class ProgressiveMeshElement extends Base {
   static readonly observedAttributes = [
-    "src", "poster", "alt", "transport", "loading", "reveal", "camera-controls", "touch-action", "auto-rotate", ...kCamera, ...kAmounts,
+    "src", "poster", "alt", "transport", "loading", "reveal", "camera-controls", "touch-action", "auto-rotate", "max-texture", ...kCamera, ...kTones, ...kAmounts,
   ];
 
   readonly #panel = new Panel(this.attachShadow({ mode: "open" }));
@@ -38,16 +48,22 @@ export class ProgressiveMeshElement extends HTMLElement {
   readonly #near = new IntersectionObserver((seen) => seen.some(({ isIntersecting }) => isIntersecting) && void this.#load(), { rootMargin: "50%" });
   #model: RemoteModel | undefined;
   #stage: Stage | undefined;
-  #isPainted = false; // whether the base mesh is on the screen, so that the model can be refined and the tools attached
+  // Whether the base mesh is on the screen. Refinement and the visitor's tools start only then.
+  #isPainted = false;
   #loads = 0;
   #looking: ReturnType<typeof setTimeout> | undefined;
-  #hasChosen = false; // whether the visitor has chosen a detail; camera movements then request no other detail
+  // Whether the visitor has chosen a detail. Camera movements do not change a chosen detail.
+  #hasChosen = false;
   #spoken: Promise<ViewerTexts> | undefined; // texts in the element's language
   #texts: ViewerTexts | undefined;
   #token = "";
+  #assets: Partial<Assets> = {};
   #tools: Toolbox | undefined;
 
-  /** Token sent to the daemon for a model that is not public. Not an attribute, because a page's HTML may be copied and stored. */
+  /**
+   * Token that is sent to the daemon for a model that is not public. It is not an attribute,
+   * because a page's HTML may be copied and stored.
+   */
   get token(): string {
     return this.#token;
   }
@@ -75,7 +91,16 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.setAttribute("alt", text);
   }
 
-  /** The camera position: angles in radians, distance from the target in model units. */
+  /**
+   * Sets the URLs of the viewer's files that are neither in its module's folder nor where a bundler has put them, and loads the
+   * model again. All models of a page share one worker and its decoders, so the URLs of the first model count.
+   */
+  setAssets(assets: Partial<Assets>): void {
+    this.#assets = assets;
+    if (this.isConnected) this.#begin();
+  }
+
+  /** The camera's position: angles in radians, and the distance from the target in model units. */
   getCameraOrbit(): { theta: number; phi: number; radius: number } | undefined {
     return this.#isPainted ? this.#stage?.orbit : undefined;
   }
@@ -85,12 +110,15 @@ export class ProgressiveMeshElement extends HTMLElement {
     return this.#isPainted ? this.#stage?.target : undefined;
   }
 
-  /** The vertical field of view, degrees. */
+  /** The vertical field of view, in degrees. */
   getFieldOfView(): number | undefined {
     return this.#isPainted ? this.#stage?.fieldOfView : undefined;
   }
 
-  /** Hides the poster if `reveal` is manual: immediately if the base mesh is on the screen, else as soon as it is. */
+  /**
+   * Hides the poster if `reveal` is manual. If the base mesh is not on the screen yet, hides the
+   * poster when it is.
+   */
   dismissPoster(): void {
     if (this.#isPainted) this.#panel.hidePoster();
     else this.setAttribute("reveal", "auto");
@@ -125,12 +153,14 @@ export class ProgressiveMeshElement extends HTMLElement {
   #obey(name: string): void {
     const stage = this.#stage as Stage;
     if (kCamera.includes(name)) stage.frame(this.#camera);
+    else if (kTones.includes(name)) stage.tones = this.#tones;
     else if (kAmounts.includes(name)) void this.#sharpen();
     else if (name === "reveal") this.#reveal();
+    else if (name === "max-texture") this.#limit(stage);
     else this.#move(stage);
   }
 
-  /** Loads the model now or, if `loading` is lazy, when the element comes near the viewport. */
+  /** Loads the model now. If `loading` is lazy, loads it when the element comes near the viewport. */
   #begin(): void {
     this.#near.disconnect();
     this.#clear();
@@ -139,8 +169,8 @@ export class ProgressiveMeshElement extends HTMLElement {
   }
 
   /**
-   * Applies properties that the page set before the element was defined. Such properties would otherwise hide the
-   * accessors.
+   * Applies properties that the page set before the element was defined. Otherwise these properties
+   * would hide the accessors of the class.
    */
   #adopt(): void {
     for (const name of ["src", "poster", "alt", "token"] as const) {
@@ -156,9 +186,13 @@ export class ProgressiveMeshElement extends HTMLElement {
     const src = this.getAttribute("src");
     if (!src) return;
     const load = this.#loads;
+    // Lets the script that has imported this module call setAssets before anything is loaded.
+    await Promise.resolve();
+    if (load !== this.#loads) return;
     try {
-      this.#model = new RemoteModel(src, this.#transport, assetsBeside(import.meta.url), this.#token);
-      // Loads everything in parallel: the model and its decoder, the texts, the stage, and three.js, which the stage imports.
+      this.#model = new RemoteModel(src, this.#transport, assetsWith(this.#assets), this.#token);
+      // Loads everything in parallel: the model and its decoder, the texts, the stage, and
+      // three.js, which the stage uses.
       const [{ Stage }] = await Promise.all([import("./stage.ts"), import("three"), this.#spoken]);
       if (load !== this.#loads) return;
       const stage = this.#open(new Stage(this.#panel.newCanvas(), this.#model));
@@ -169,15 +203,26 @@ export class ProgressiveMeshElement extends HTMLElement {
       this.#isPainted = true;
       this.#reveal();
       this.#emit("first-paint");
-      this.#equip(stage).catch(() => undefined); // the browser reports a failure; the model is then shown without tools
+      // Ignores an error, because the browser reports it. The model is then shown without tools.
+      this.#equip(stage).catch(() => undefined);
+      // Ignores an error, too. Lamp and sky then light the model.
+      if (stage.mesh.info.texture) stage.enterRoom().catch(() => undefined);
       await this.#sharpen();
     } catch (error) {
       if (load === this.#loads) this.#fail(error as Error);
     }
   }
 
+  /** Applies the attribute that bounds the pictures. A picture that is shown already stays. */
+  #limit(stage: Stage): void {
+    const side = this.#number("max-texture");
+    stage.mesh.maxTexture = side >= 0 ? side : Infinity;
+    void stage.draw();
+  }
+
   #open(stage: Stage): Stage {
     this.#stage = stage;
+    this.#limit(stage);
     stage.onCamera = (byVisitor) => {
       this.#emit("camera-change", { source: byVisitor ? "user-interaction" : "none" });
       this.#follow();
@@ -186,26 +231,32 @@ export class ProgressiveMeshElement extends HTMLElement {
     stage.mesh.addEventListener("error", ({ error }) => this.#isPainted && this.#fail(error));
     stage.mesh.addEventListener("progress", ({ bytes, total }) => this.#progress(bytes, total));
     stage.mesh.addEventListener("refine", ({ surface }) => this.#show(surface));
+    stage.mesh.addEventListener("memory", ({ geometry, pictures }) => this.#emit("memory", { geometry, pictures }));
+    stage.mesh.addEventListener("picture", ({ side, texels, bytes }) => {
+      this.#panel.choice.pictureBytes = bytes;
+      this.#emit("picture", { side, texels, bytes });
+    });
     return stage;
   }
 
   async #firstPaint(stage: Stage): Promise<void> {
     this.#fit();
     stage.frame(this.#camera);
+    stage.tones = this.#tones;
     this.#move(stage);
     this.#panel.enable(stage.mesh.info);
     await stage.draw();
   }
 
   /**
-   * Loads the texts in the element's language, unless they are already loaded. Called again when the language may have
-   * changed.
+   * Loads the texts in the element's language, unless they are already loaded. Called when the
+   * language may have changed.
    */
   #speak(): void {
     const spoken = textsFor(this);
     if (spoken === this.#spoken) return;
     this.#spoken = spoken;
-    // If the texts cannot be loaded, loading the model fails and reports the error.
+    // Ignores an error here, because loading the model fails with the same error and reports it.
     spoken.then((texts) => spoken === this.#spoken && this.#say(texts)).catch(() => undefined);
   }
 
@@ -221,14 +272,19 @@ export class ProgressiveMeshElement extends HTMLElement {
     const { Toolbox } = await import("./tools/toolbox.ts");
     if (stage !== this.#stage || !this.#texts) return;
     this.#tools ??= new Toolbox(this, this.#panel, this.#texts);
-    this.#tools.attach(stage, { frame: () => stage.frame(this.#camera), sharpen: () => void this.#sharpen() });
+    this.#tools.attach(stage, {
+      frame: () => stage.frame(this.#camera),
+      sharpen: () => void this.#sharpen(),
+      choose: (triangles) => void this.#choose({ triangles }),
+      hasChosen: () => this.#hasChosen,
+    });
   }
 
   #reveal(): void {
     if (this.getAttribute("reveal") !== "manual") this.#panel.hidePoster();
   }
 
-  /** Applies the attributes that let the visitor or the auto-rotation move the camera. */
+  /** Applies the attributes for camera movements by the visitor and by auto-rotation. */
   #move(stage: Stage): void {
     stage.control(this.hasAttribute("camera-controls"), this.getAttribute("touch-action") ?? "pan-y");
     stage.isTurning = this.hasAttribute("auto-rotate") && !matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -239,6 +295,11 @@ export class ProgressiveMeshElement extends HTMLElement {
     return { orbit: orbit ?? null, target: target ?? null, fieldOfView: fieldOfView ?? null };
   }
 
+  get #tones(): ToneWords {
+    const [mapping, exposure] = kTones.map((name) => this.getAttribute(name));
+    return { mapping: mapping ?? null, exposure: exposure ?? null };
+  }
+
   /** Refines to the detail that the attributes request. */
   #sharpen(): Promise<void> {
     this.#hasChosen = false;
@@ -247,8 +308,8 @@ export class ProgressiveMeshElement extends HTMLElement {
   }
 
   /**
-   * If the camera determines the detail, requests detail for the new view after kLook ms. Later movements within kLook
-   * share the request.
+   * Requests detail for the new view after kLook ms, if the camera determines the detail. Further
+   * movements within these kLook ms cause no further request.
    */
   #follow(): void {
     if (!this.#isPainted || this.#hasChosen || this.#goal()) return;
@@ -258,7 +319,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     }, kLook);
   }
 
-  /** Refines to the visitor's choice of detail, which stays in force when the camera moves. */
+  /** Refines to the detail that the visitor has chosen. Camera movements do not change this choice. */
   #choose(want: Want): Promise<void> {
     this.#hasChosen = true;
     return this.#reach((stage) => stage.mesh.refine(want));
@@ -275,7 +336,8 @@ export class ProgressiveMeshElement extends HTMLElement {
       this.#panel.progress = 1;
       this.#emit("load");
     } catch (error) {
-      if (!(error instanceof ModelError)) throw error; // the mesh's "error" event reports ModelErrors
+      // Ignores a ModelError, because the mesh's "error" event reports it.
+      if (!(error instanceof ModelError)) throw error;
     }
   }
 
@@ -326,13 +388,13 @@ export class ProgressiveMeshElement extends HTMLElement {
     return Number.parseFloat(this.getAttribute(name) ?? "");
   }
 
-  /** Acceptable screen-space error in device pixels; 0 requests the whole model. */
+  /** Acceptable screen-space error, in device pixels. 0 requests the whole model. */
   get #pixels(): number {
     const pixels = this.#number("pixel-error");
     return pixels >= 0 ? pixels : 1;
   }
 
-  /** Returns the fixed state that the attributes request, or undefined if the camera determines the detail. */
+  /** Returns the fixed state that the attributes request. Returns undefined if the camera determines the detail. */
   #goal(): Want | undefined {
     const triangles = this.#number("max-triangles"), bytes = this.#number("max-bytes"), error = this.#number("target-error");
     if (triangles >= 0) return { triangles };
@@ -341,7 +403,10 @@ export class ProgressiveMeshElement extends HTMLElement {
     return this.#pixels > 0 ? undefined : { level: this.#info.levels.length - 1 };
   }
 
-  /** Converts a slider position from 0 to 1 to a detail request. The slider is logarithmic in the triangle count. */
+  /**
+   * Converts a slider position from 0 to 1 to a detail request. Positions are logarithmic in the
+   * number of triangles.
+   */
   #wantAt(fraction: number): Want {
     if (fraction >= 1) return { level: this.#info.levels.length - 1 };
     if (fraction <= 0) return { level: 0 };
@@ -367,4 +432,15 @@ export class ProgressiveMeshElement extends HTMLElement {
   #emit(type: string, detail?: object): void {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
+}
+
+export interface ProgressiveMeshElement {
+  addEventListener<K extends keyof ProgressiveMeshElementEventMap>(
+    type: K, listener: (this: ProgressiveMeshElement, event: ProgressiveMeshElementEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions,
+  ): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject | null, options?: boolean | AddEventListenerOptions): void;
+  removeEventListener<K extends keyof ProgressiveMeshElementEventMap>(
+    type: K, listener: (this: ProgressiveMeshElement, event: ProgressiveMeshElementEventMap[K]) => unknown, options?: boolean | EventListenerOptions,
+  ): void;
+  removeEventListener(type: string, listener: EventListenerOrEventListenerObject | null, options?: boolean | EventListenerOptions): void;
 }

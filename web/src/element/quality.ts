@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the cost of each choice of detail: bytes from the manifest, seconds from the measured throughput.
+// Estimates the cost of each choice of detail: the bytes from the manifest, the seconds from the
+// measured throughput.
 import type { Level, ModelInfo } from "../core/types.ts";
 
-/** Weight of earlier samples relative to a new one. */
+/** Factor by which the weight of earlier samples decreases with each new sample. */
 const kMemory = 0.8;
 
 /** Measures the throughput of a connection while new data arrive. */
 export class Throughput {
   #bytes = 0;
   #seconds = 0;
-  #most = 0; // bytes of the largest state so far; smaller states need no download
+  #most = 0; // size in bytes of the largest state so far; smaller states need no download
   #since: number | undefined;
 
-  /** Starts a measurement at the time `now`, in milliseconds. The time before is not part of any measurement. */
+  /**
+   * Starts a measurement at the time `now`, in milliseconds. The time since the previous
+   * measurement does not count.
+   */
   begin(now: number): void {
     this.#since = now;
   }
@@ -34,8 +38,8 @@ export class Throughput {
   }
 
   /**
-   * Returns the estimated seconds until `bytes` are downloaded: 0 if they already are, undefined before the first
-   * measurement.
+   * Returns the estimated seconds until a state of `bytes` is downloaded. Returns 0 if it is
+   * already downloaded, and undefined before the first measurement.
    */
   secondsTo(bytes: number): number | undefined {
     if (bytes <= this.#most) return 0;
@@ -49,7 +53,9 @@ export function nextLevel({ levels }: Pick<ModelInfo, "levels">, triangles: numb
   return next < 0 ? undefined : next;
 }
 
-/** Returns the finest level that a uniformly refined model contains completely when it has `triangles` faces. */
+/**
+ * Returns the finest level that is complete when a uniformly refined model has `triangles` faces.
+ */
 export function completeLevel({ levels }: Pick<ModelInfo, "levels">, triangles: number): Level {
   return levels.filter(({ faces }) => faces <= triangles).at(-1) ?? (levels[0] as Level);
 }

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene around one progressive mesh, with camera, light and orbit controls. A frame is drawn only if something
-// has changed.
-import {
-  Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Spherical, Vector3,
-  WebGLRenderer,
-} from "three";
+// The scene around one progressive mesh, with camera, light and orbit controls. It draws a frame
+// only if something has changed.
+import { PerspectiveCamera, Scene, Spherical, Vector3, WebGLRenderer, type Texture } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
 import type { RemoteModel } from "../core/client.ts";
 import { fieldOfViewOf, orbitOf, targetOf, type CameraOrbit, type Vec3 } from "./camera.ts";
-import { distanceFor, kFieldOfView, kViewpoint } from "./viewpoint.ts";
+import { Lights } from "./lights.ts";
+import { tonesOf, type ToneWords } from "./tones.ts";
+import { fittingDistance, kFieldOfView, kViewpoint } from "./viewpoint.ts";
 
-/** The attributes that place the camera; null for an attribute that is missing. */
+/** The attributes that place the camera. A missing attribute is null. */
 export interface CameraWords {
   orbit: string | null;
   target: string | null;
@@ -20,7 +19,10 @@ export interface CameraWords {
 
 export class Stage {
   readonly mesh: ProgressiveMesh;
-  /** Called after each change of the camera. `byVisitor` is false if an attribute or the auto-rotation moved it. */
+  /**
+   * Called after each change of the camera. `byVisitor` is false if an attribute or the
+   * auto-rotation moved the camera.
+   */
   onCamera: (byVisitor: boolean) => void = () => undefined;
   /** Called after each frame. */
   onDraw: () => void = () => undefined;
@@ -29,19 +31,23 @@ export class Stage {
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
   readonly #controls: OrbitControls;
-  readonly #lamp = new DirectionalLight(0xfffaf2, 2.2);
-  readonly #wires: Mesh;
+  readonly #lights = new Lights(this.#scene, this.#camera);
+  #toneWords: ToneWords = { mapping: null, exposure: null };
+  #base: Float32Array | undefined; // the positions of the base mesh
   #frame = 0;
   #isPlacing = false;
+  #room: Promise<void> | undefined;
   #turned = 0; // time of the last auto-rotation step, in milliseconds
   #drawn: (() => void)[] = [];
+  #isDisposed = false;
 
   /** Throws if WebGL is not available. */
   constructor(canvas: HTMLCanvasElement, model: RemoteModel) {
-    // The drawing buffer must be preserved for printing and screenshots.
+    // Keeps the drawing buffer after each frame, which printing and screenshots need.
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    // When a lost context is restored, three.js restores its state but does not draw.
+    // Draws after a lost context is restored. three.js then restores its own state, but does not
+    // draw.
     canvas.addEventListener("webglcontextrestored", () => void this.draw());
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.addEventListener("change", () => {
@@ -50,20 +56,18 @@ export class Stage {
     });
     this.mesh = new ProgressiveMesh(model);
     this.mesh.drawBy(this.#renderer);
-    for (const type of ["refine", "morph"] as const) this.mesh.addEventListener(type, () => this.draw());
-    this.#wires = new Mesh(this.mesh.geometry, new MeshBasicMaterial({ color: 0x1f4e5f, wireframe: true, transparent: true, opacity: 0.45 }));
-    this.#wires.visible = false;
-    this.mesh.morph(this.#wires.material as MeshBasicMaterial);
-    this.#light();
-    this.#scene.add(this.mesh, this.#wires, this.#camera);
+    for (const type of ["refine", "morph", "picture"] as const) this.mesh.addEventListener(type, () => this.draw());
+    this.#scene.add(this.mesh, this.#camera);
+    // Compiles the shader of a model without colours and pictures while the model is on its way.
+    if (!this.mesh.isOpen) this.#renderer.compile(this.#scene, this.#camera);
   }
 
   /** The objects that the visitor's tools use (tools/toolbox.ts). */
   get parts() {
-    return { renderer: this.#renderer, scene: this.#scene, camera: this.#camera, controls: this.#controls, lamp: this.#lamp };
+    return { renderer: this.#renderer, scene: this.#scene, camera: this.#camera, controls: this.#controls, lights: this.#lights };
   }
 
-  /** Draws at the next frame; resolves when that frame is on the screen. */
+  /** Draws at the next animation frame. Resolves when that frame is on the screen. */
   draw(): Promise<void> {
     const drawn = new Promise<void>((resolve) => this.#drawn.push(resolve));
     this.#frame ||= requestAnimationFrame(() => this.#render());
@@ -76,7 +80,7 @@ export class Stage {
     while (this.mesh.morphing);
   }
 
-  /** Refines what the camera sees to an error of this many device pixels. */
+  /** Refines what the camera sees until no error exceeds `pixels` device pixels. */
   refine(pixels: number): Promise<boolean> {
     const { width, height } = this.#renderer.domElement;
     return this.mesh.refineFor(this.#camera, width, height, pixels);
@@ -90,20 +94,27 @@ export class Stage {
     void this.draw();
   }
 
-  /** Places the camera as the attributes say. Without attributes, the model fills the view. */
+  /**
+   * Places the camera as the attributes say. Without attributes, the model fills the view. The first call, when the base mesh is
+   * shown, decides how large the model is.
+   */
   frame(words: CameraWords = { orbit: null, target: null, fieldOfView: null }): void {
     const { centre, unit } = this.mesh.info;
     const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
     this.#camera.fov = fieldOfViewOf(words.fieldOfView, kFieldOfView);
-    const distance = distanceFor(radius, this.#camera.aspect, this.#camera.fov);
+    const around = new Spherical().setFromVector3(kViewpoint), target = targetOf(words.target, centre, unit);
+    const distance = this.#fittingDistance(new Vector3(...target).sub(new Vector3(...centre)));
     this.#camera.near = radius / 100;
     this.#camera.far = distance + 20 * radius;
     this.#camera.updateProjectionMatrix();
     this.#controls.minDistance = radius * 0.2;
     this.#controls.maxDistance = 6 * distance;
-    const around = new Spherical().setFromVector3(kViewpoint);
-    const orbit = orbitOf(words.orbit, { theta: around.theta, phi: around.phi, radius: distance }, unit);
-    this.#stand(orbit, targetOf(words.target, centre, unit));
+    this.#stand(orbitOf(words.orbit, { theta: around.theta, phi: around.phi, radius: distance }, unit), target);
+  }
+
+  #fittingDistance(target: Vector3): number {
+    this.#base ??= Float32Array.from(this.mesh.geometry.getAttribute("position").array);
+    return fittingDistance(this.#base, target, kViewpoint, this.#camera.aspect, this.#camera.fov) || 1;
   }
 
   /** The camera's position relative to the point that it looks at. */
@@ -117,12 +128,15 @@ export class Stage {
     return this.#controls.target.clone().add(new Vector3(...this.mesh.info.centre)).toArray();
   }
 
-  /** The vertical field of view, degrees. */
+  /** The vertical field of view, in degrees. */
   get fieldOfView(): number {
     return this.#camera.fov;
   }
 
-  /** Sets whether the visitor may move the camera, and which gestures the page handles (a CSS touch-action value). */
+  /**
+   * Sets whether the visitor may move the camera. `touchAction` is the CSS touch-action value: the
+   * gestures that the page handles.
+   */
   control(isEnabled: boolean, touchAction: string): void {
     this.#controls.enabled = isEnabled;
     const { style } = this.#renderer.domElement;
@@ -146,46 +160,67 @@ export class Stage {
     void this.draw();
   }
 
-  set colours(on: boolean) {
-    const { material, info } = this.mesh;
-    material.vertexColors = on && info.attributes.includes("colour");
-    material.color.set(material.vertexColors ? 0xffffff : 0xd8d3cb);
-    material.needsUpdate = true;
+  /** Shows the form alone, without colours and pictures. */
+  set form(on: boolean) {
+    this.mesh.isBare = this.#lights.isRelief = on;
+    this.#mapTones();
     void this.draw();
   }
 
-  /** Turns flat shading on or off. Printed figures of scanned surfaces often use it. */
-  set facets(on: boolean) {
-    this.mesh.material.flatShading = on;
-    this.mesh.material.needsUpdate = true;
-    void this.draw();
+  /**
+   * Lights the model by a room, which metal and gloss reflect. Call this after the first picture, because it loads more code.
+   * Further calls change nothing. Resolves when the next frame will show the room.
+   */
+  enterRoom(): Promise<void> {
+    return (this.#room ??= this.#enterRoom());
   }
 
-  set wireframe(on: boolean) {
-    this.#wires.visible = on;
-    this.mesh.material.polygonOffset = on;
-    this.mesh.material.polygonOffsetFactor = this.mesh.material.polygonOffsetUnits = on ? 1 : 0;
+  async #enterRoom(): Promise<void> {
+    await idle();
+    const { roomEnvironment } = await import("./room/room.ts");
+    const room = await roomEnvironment();
+    if (this.#isDisposed) return;
+    await this.#compileFor(room);
+    if (this.#isDisposed) return room.dispose();
+    this.#lights.enter(room, performance.now());
     void this.draw();
   }
 
   dispose(): void {
+    this.#isDisposed = true;
     cancelAnimationFrame(this.#frame);
     this.#controls.dispose();
-    (this.#wires.material as MeshBasicMaterial).dispose();
     this.mesh.dispose();
+    this.#lights.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss(); // browsers allow only a few contexts per page
   }
 
-  #light(): void {
-    this.#lamp.position.set(-0.6, 0.9, 0.6);
-    this.#camera.add(this.#lamp, this.#lamp.target); // a directional light that follows the camera
-    this.#scene.add(new HemisphereLight(new Color(0xffffff), new Color(0x8a8178), 1.1));
+  /** Maps tones as the attributes say. The form alone looks like an untextured model. */
+  set tones(words: ToneWords) {
+    this.#toneWords = words;
+    this.#mapTones();
+    void this.draw();
+  }
+
+  #mapTones(): void {
+    const { mapping, exposure } = tonesOf(this.#toneWords, Boolean(this.mesh.info.texture) && !this.mesh.isBare);
+    this.#renderer.toneMapping = mapping;
+    this.#renderer.toneMappingExposure = exposure;
+  }
+
+  /** Compiles the shader that reflects `room` in the background, so that no frame waits for it. */
+  async #compileFor(room: Texture): Promise<void> {
+    this.#scene.environment = room;
+    const compiled = this.#renderer.compileAsync(this.#scene, this.#camera);
+    this.#scene.environment = null;
+    await compiled;
   }
 
   #render(): void {
     this.#frame = 0;
     if (this.#controls.autoRotate) this.#turn();
+    if (this.#lights.advance(performance.now())) void this.draw();
     this.#renderer.render(this.#scene, this.#camera);
     this.onDraw();
     const drawn = this.#drawn.splice(0);
@@ -200,4 +235,9 @@ export class Stage {
     this.#turned = now;
     void this.draw();
   }
+}
+
+/** Resolves when the page has nothing else to do. */
+function idle(): Promise<void> {
+  return new Promise((resolve) => ("requestIdleCallback" in window ? requestIdleCallback(() => resolve()) : setTimeout(resolve)));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gallery, "/", which shows the published models. A button loads more of them. The search words
-// are in the URL's query.
+// The gallery, "/", which shows the published models. A button loads further models. The search
+// words are in the URL's query.
 import { models, type ModelRecord } from "../ui/api.ts";
 import { byId, h, square } from "../ui/dom.ts";
 import { count, language, size, texts } from "../ui/texts/index.ts";
 
-/** Milliseconds without input after which the search starts. */
+/** The search starts when the visitor has not typed for this many milliseconds. */
 const kRest = 250;
 const kPosterSide = 480;
 
@@ -15,7 +15,7 @@ const input = h("input", { type: "search", name: "q", maxlength: 100, placeholde
 function card(model: ModelRecord): HTMLLIElement {
   const facts = [model.creator, texts.amount(count(model.faces), size(model.bytes)), model.licence].filter(Boolean);
   return h("li", {}, h("a", { href: model.links.page },
-    // No alternative text: the title below says what the poster shows.
+    // The poster has no alternative text, because the title below says what it shows.
     h("div", { class: "poster" }, square(model.links.poster, kPosterSide)),
     h("h2", {}, model.title || texts.untitled), h("p", {}, facts.join(" · "))));
 }
@@ -24,7 +24,7 @@ class Display {
   #cursor: string | null = null;
   #asked = 0;
 
-  /** Starts a new search, at its first page. Responses to earlier requests are ignored. */
+  /** Starts a new search at its first page. Responses to earlier requests are ignored from now on. */
   search(words: string): Promise<void> {
     this.#cursor = null;
     return this.#ask(words, true);

@@ -12,18 +12,30 @@ const title = byId("title"), aside = byId("about");
 document.documentElement.lang = language;
 byId("back").textContent = texts.collection;
 byId("down").textContent = texts.about;
-// In an iframe of another site, only the object is shown.
+// In an iframe of another site, shows only the object.
 document.body.classList.toggle("framed", window.parent !== window);
-// A link may choose the transport: ?transport=ws.
+// A link can choose the transport, for example with ?transport=ws.
 viewer.setAttribute("transport", new URLSearchParams(location.search).get("transport") ?? "auto");
 viewer.setAttribute("src", `/api/v1/models/${encodeURIComponent(id)}`);
+
+const showPoster = (width: number) => viewer.setAttribute("poster", `/api/v1/models/${encodeURIComponent(id)}/poster.png?width=${width}`);
+// Shows the poster if the object cannot be drawn. On a slow line, shows a small one until the object is there. On other lines, it
+// would only delay the object.
+viewer.addEventListener("error", () => showPoster(960), { once: true });
+if (isSlow()) showPoster(240);
 
 model(id)
   .then((record) => {
     document.title = title.textContent = record.title || texts.untitled;
     byId("credit").textContent = [record.creator, record.licence].filter(Boolean).join(" · ");
     viewer.setAttribute("alt", title.textContent);
-    aside.append(...about(record));
-    aside.hidden = byId("down").hidden = false;
+    aside.replaceChildren(...about(record));
+    byId("down").hidden = false;
   })
   .catch(() => (title.textContent = texts.notOnDisplay));
+
+/** Whether the browser reports a line that is slower than most mobile ones. Not all browsers report this. */
+function isSlow(): boolean {
+  const { connection } = navigator as { connection?: { effectiveType?: string } };
+  return !["4g", undefined].includes(connection?.effectiveType);
+}

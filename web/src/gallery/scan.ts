@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/scans/{id}", which shows the growing point cloud of a scan, and later the model in its place.
+// The page "/scans/{id}". It shows the growing point cloud of a scan. When the scan has a model,
+// the page shows the model instead.
 import { scan, scanPoints, type ScanRecord } from "../ui/api.ts";
 import { CloudView } from "../ui/cloud-view.ts";
 import { watchScan, type ScanSight } from "../ui/scan-watch.ts";
@@ -71,13 +72,13 @@ class LiveScan implements ScanSight {
     (find("#progress").firstElementChild as HTMLElement).style.transform = `scaleX(${progress})`;
   }
 
-  /** Updates the text only if it has changed, so that screen readers announce only changes. */
+  /** Updates the text only if it has changed. Otherwise screen readers would announce it again. */
   #say(text: string): void {
     if (find("#state").textContent !== text) find("#state").textContent = text;
     if (text === texts.scan.lost || text === "") find("#left").textContent = "";
   }
 
-  /** Called when the model's base mesh is on the screen. Replaces the points by the model. */
+  /** Shows the model instead of the points. Called when the model's base mesh is on the screen. */
   async #unveil(): Promise<void> {
     this.#main.classList.add("modelled");
     await Promise.allSettled(this.#growth.getAnimations().map(({ finished }) => finished));

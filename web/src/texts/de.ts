@@ -11,16 +11,16 @@ const sides = {
 };
 const heights = { above: " oben", level: "", below: " unten" };
 
-export const de = ({ count, size, length, bound }: Formats): ViewerTexts => ({
+export const de = ({ count, size, length, extent, bound }: Formats): ViewerTexts => ({
   loading: "Wird geladen",
   viewOf: (title) => title || "Dreidimensionales Modell",
   keys: "Pfeiltasten drehen, Plus und Minus zoomen, Pos1 stellt die Ansicht zurück.",
   noWebGl: "Dieser Browser kann keine dreidimensionalen Inhalte zeigen (WebGL 2 fehlt).",
 
-  quality: "Detailstufe",
-  lowest: "Niedrigste",
-  refine: "Verfeinern",
-  highest: "Höchste",
+  quality: "Detail",
+  lowest: "Wenig",
+  refine: "Mehr",
+  highest: "Voll",
   size,
   more: (bytes) => `+${size(bytes)}`,
   complete: "vollständig",
@@ -35,10 +35,11 @@ export const de = ({ count, size, length, bound }: Formats): ViewerTexts => ({
   reset: "Ansicht zurückstellen",
 
   light: "Licht",
+  museum: "Museum",
   studio: "Atelier",
-  soft: "Weich",
-  front: "Frontal",
   raking: "Streiflicht",
+  relief: "Relief",
+  shadow: "Schatten",
   rakingFrom: "Richtung des Streiflichts",
   degrees: (value) => `${count(value)} Grad`,
 
@@ -52,9 +53,12 @@ export const de = ({ count, size, length, bound }: Formats): ViewerTexts => ({
 
   measure: "Messen",
   measureFirst: "Klicken Sie einen Punkt der Oberfläche an, oder nehmen Sie mit der Eingabetaste den in der Bildmitte.",
-  measureSecond: "Nun den zweiten Punkt.",
+  measureNext: "Nun den nächsten Punkt.",
   measured: (distance, unit) => length(distance, unit || units),
-  distance: (distance, unit) => `Abstand: ${length(distance, unit || units)}`,
+  measureWhat: "Was gemessen wird",
+  measures: { distance: "Abstand", angle: "Winkel", area: "Fläche", profile: "Profil" },
+  dimensions: "Breite × Höhe × Tiefe",
+  extent: (x, y, z, unit) => extent([x, y, z], unit || units),
   measureClear: "Löschen",
 
   notes: "Notizen",
@@ -62,21 +66,25 @@ export const de = ({ count, size, length, bound }: Formats): ViewerTexts => ({
   notesMissing: "Die Notizen sind nicht lesbar.",
 
   surface: "Fläche",
-  colours: "Farben",
+  form: "Nur die Form",
+  curvature: "Krümmung",
   facets: "Facetten",
   wireframe: "Drahtgitter",
+
+  dragHint: "Ziehen, um zu drehen",
 
   save: "Teilen",
   screenshot: "Bild speichern",
   link: "Link zu dieser Ansicht",
+  share: "Teilen …",
   copy: "Kopieren",
   copied: "Der Link ist kopiert.",
   copyByHand: "Der Link ist markiert: kopieren Sie ihn mit der Tastatur.",
   download: "Modell herunterladen",
   format: "Format",
   asShown: (triangles) => `Wie gezeigt, ${count(triangles)} Dreiecke`,
-  original: (triangles) => `Höchste, ${count(triangles)} Dreiecke`,
-  coarsest: (triangles) => `Niedrigste, ${count(triangles)} Dreiecke`,
+  original: (triangles) => `Voll, ${count(triangles)} Dreiecke`,
+  coarsest: (triangles) => `Wenig, ${count(triangles)} Dreiecke`,
   fileAlone: "Das ganze Modell (.pmesh)",
 
   fullScreen: "Vollbild",

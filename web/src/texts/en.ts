@@ -2,7 +2,7 @@
 // The viewer's visible and spoken texts in English. Other languages have the same type.
 import type { Formats } from "./formats.ts";
 
-const units = "units"; // shown instead of a unit's name for a model without a unit
+const units = "units"; // shown for a model without a unit
 
 const sides = {
   front: "the front", "front-right": "the front right", right: "the right", "back-right": "the back right",
@@ -10,16 +10,16 @@ const sides = {
 };
 const heights = { above: ", from above", level: "", below: ", from below" };
 
-export const en = ({ count, size, length, bound }: Formats) => ({
+export const en = ({ count, size, length, extent, bound }: Formats) => ({
   loading: "Loading",
   viewOf: (title: string) => title || "Three-dimensional model",
   keys: "Arrow keys turn, plus and minus zoom, Home resets the view.",
   noWebGl: "This browser cannot show three-dimensional content (WebGL 2 is missing).",
 
-  quality: "Level of detail",
-  lowest: "Lowest",
-  refine: "Refine",
-  highest: "Highest",
+  quality: "Detail",
+  lowest: "Low",
+  refine: "More",
+  highest: "Full",
   size,
   more: (bytes: number) => `+${size(bytes)}`,
   complete: "complete",
@@ -34,10 +34,11 @@ export const en = ({ count, size, length, bound }: Formats) => ({
   reset: "Reset view",
 
   light: "Light",
+  museum: "Museum",
   studio: "Studio",
-  soft: "Soft",
-  front: "Front",
   raking: "Raking",
+  relief: "Relief",
+  shadow: "Shadow",
   rakingFrom: "Direction of the raking light",
   degrees: (value: number) => `${count(value)} degrees`,
 
@@ -51,9 +52,12 @@ export const en = ({ count, size, length, bound }: Formats) => ({
 
   measure: "Measure",
   measureFirst: "Click a point on the surface, or press Enter to choose the one in the middle of the view.",
-  measureSecond: "Now the second point.",
+  measureNext: "Now the next point.",
   measured: (distance: number, unit: string) => length(distance, unit || units),
-  distance: (distance: number, unit: string) => `Distance: ${length(distance, unit || units)}`,
+  measureWhat: "What to measure",
+  measures: { distance: "Distance", angle: "Angle", area: "Area", profile: "Profile" },
+  dimensions: "Width × height × depth",
+  extent: (x: number, y: number, z: number, unit: string) => extent([x, y, z], unit || units),
   measureClear: "Clear",
 
   notes: "Notes",
@@ -61,21 +65,25 @@ export const en = ({ count, size, length, bound }: Formats) => ({
   notesMissing: "The notes cannot be loaded.",
 
   surface: "Surface",
-  colours: "Colours",
+  form: "Form only",
+  curvature: "Curvature",
   facets: "Facets",
   wireframe: "Wireframe",
+
+  dragHint: "Drag to turn",
 
   save: "Share",
   screenshot: "Save a picture",
   link: "Link to this view",
+  share: "Share…",
   copy: "Copy",
   copied: "Link copied.",
   copyByHand: "The link is selected: copy it with the keyboard.",
   download: "Download the model",
   format: "Format",
   asShown: (triangles: number) => `As shown, ${count(triangles)} triangles`,
-  original: (triangles: number) => `Highest, ${count(triangles)} triangles`,
-  coarsest: (triangles: number) => `Lowest, ${count(triangles)} triangles`,
+  original: (triangles: number) => `Full, ${count(triangles)} triangles`,
+  coarsest: (triangles: number) => `Low, ${count(triangles)} triangles`,
   fileAlone: "The whole model (.pmesh)",
 
   fullScreen: "Full screen",

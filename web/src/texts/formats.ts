@@ -19,6 +19,7 @@ export function formats(language: string) {
   return {
     count,
     size,
+    extent: (values: number[], unit: string) => `${values.map((value) => measured.format(value)).join(" × ")} ${unit}`,
     length: (value: number, unit: string) => `${measured.format(value)} ${unit}`,
     bound: (value: number, unit: string) => `${bound.format(value)} ${unit}`,
   };
@@ -26,7 +27,7 @@ export function formats(language: string) {
 
 export type Formats = ReturnType<typeof formats>;
 
-/** Converts a length to millimetres if its unit is known. Returns the length and its unit. */
+/** Converts a length to millimetres if its unit is known. Returns the resulting length and its unit. */
 export function inMillimetres(value: number, unit: string): [number, string] {
   const millimetres = kMillimetres[unit];
   return millimetres === undefined ? [value, unit] : [value * millimetres, "mm"];

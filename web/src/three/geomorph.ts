@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Geomorphs: for a quarter of a second, new vertices move from their parents' positions and existing ones
-// from their previous positions, to avoid popping. The vertex shader interpolates between attributes that
-// exist only during the morph.
+// Geomorphs avoid visible jumps. For a quarter of a second, new vertices move away from their
+// parents' positions, and existing vertices move from their previous positions. The vertex shader
+// interpolates between attributes that exist only during the morph.
 import type { Material } from "three";
 import { evenOutline } from "./outline.ts";
+import { unlit } from "./unlit.ts";
 
 const kDuration = 250; // milliseconds
-/** Maximum number of changes that morph at the same time; if there are more, the oldest morph ends early. */
+/** Maximum number of changes that morph at the same time. If there are more, the oldest morph ends early. */
 const kChanges = 16;
 
 const kDeclarations = `
 attribute vec4 fromPosition; // w: number of the change that moves the vertex, or 0
 attribute vec4 fromNormal;
+attribute vec2 fromCoordinate;
 uniform float newestChange;
 uniform float changeProgress[${kChanges}];
 float morphed() {
@@ -24,16 +26,20 @@ export class Geomorph {
   readonly #progress = { value: new Float32Array(kChanges).fill(1) };
   readonly #began = new Map<number, number>();
 
-  /** Makes `material` draw vertices at their interpolated positions. */
+  /** Changes the shader of `material` so that it draws vertices at their interpolated positions. */
   apply(material: Material): void {
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, { newestChange: this.#newest, changeProgress: this.#progress });
       shader.vertexShader = `${kDeclarations}\n` + shader.vertexShader
+        .replace("#include <uv_vertex>", `
+          #define uv mix(fromCoordinate, uv, morphed())
+          #include <uv_vertex>
+          #undef uv`)
         .replace("#include <beginnormal_vertex>", `#include <beginnormal_vertex>
           objectNormal = mix(fromNormal.xyz, objectNormal, morphed());`)
         .replace("#include <begin_vertex>", `#include <begin_vertex>
           transformed = mix(fromPosition.xyz, transformed, morphed());`);
-      shader.fragmentShader = evenOutline(shader.fragmentShader);
+      shader.fragmentShader = unlit(evenOutline(shader.fragmentShader));
     };
   }
 
@@ -43,15 +49,18 @@ export class Geomorph {
     this.#progress.value[change % kChanges] = 0;
   }
 
-  /** Sets the morph progress for the time `now`, in milliseconds. Returns false when all morphs have finished. */
+  /**
+   * Updates the progress of all morphs to the time `now`, in milliseconds. Returns false when all
+   * morphs have finished.
+   */
   advance(now: number): boolean {
     for (const [change, began] of this.#began) {
       const t = Math.min((now - began) / kDuration, 1);
       if (this.#newest.value - change < kChanges) this.#progress.value[change % kChanges] = t * t * (3 - 2 * t);
       if (t === 1) this.#began.delete(change);
     }
-    // Without morphs, the `from…` attributes are removed, and the shader reads (0, 0, 0, 1) instead. -1 makes it ignore
-    // this value.
+    // Without morphs, there are no `from…` attributes, and the shader reads (0, 0, 0, 1) in their
+    // place. -1 makes the shader ignore that value.
     if (this.#began.size === 0) this.#newest.value = -1;
     return this.#began.size > 0;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A double-buffered array in GPU memory. The GPU copies the current state to the next one, new data are
-// uploaded in slices over several frames, and then the next state replaces the current one. So a large
-// change needs no long task, and a partial change is never drawn.
+// A double-buffered array in GPU memory. The GPU copies the current state to the next one. New data
+// are uploaded in slices over several frames. Then the next state replaces the current one. So a
+// large change needs no long task, and a partial change is never drawn.
 
 /**
- * Work in steps. Each yielded value says when the next step may run: immediately, in the next frame, or after more
- * data have arrived.
+ * Work in steps. Each yielded value says when the next step may run: immediately, in the next
+ * frame, or when more data have arrived.
  */
 export type Steps = Generator<"continue" | "next frame" | "wait", void>;
 
@@ -22,12 +22,17 @@ export class GpuArray {
     private readonly target: BufferTarget,
   ) {}
 
-  /** The buffer with the current state; undefined before the first commit(). */
+  /** The buffer with the current state. Undefined before the first commit(). */
   get buffer(): WebGLBuffer | undefined {
     return this.#buffer;
   }
 
-  /** Starts the next state with a size of `bytes`: a copy of the current state, padded with zeros. */
+  /** Size of the current state. */
+  get bytes(): number {
+    return this.#bytes;
+  }
+
+  /** Starts the next state, `bytes` in size. It is a copy of the current state, padded with zeros. */
   begin(bytes: number): void {
     const { gl } = this;
     gl.deleteBuffer(this.#next ?? null);
@@ -39,7 +44,7 @@ export class GpuArray {
     gl.copyBufferSubData(gl.COPY_READ_BUFFER, gl.COPY_WRITE_BUFFER, 0, 0, Math.min(bytes, this.#bytes));
   }
 
-  /** Writes `values` into the next state, starting at byte `at`. */
+  /** Writes `values` into the next state, from byte number `at` on. */
   put(at: number, values: ArrayBufferView): void {
     const { gl } = this;
     gl.bindBuffer(gl.COPY_WRITE_BUFFER, this.#next as WebGLBuffer);
@@ -59,8 +64,8 @@ export class GpuArray {
   }
 
   /**
-   * Allocates a buffer of zeros and binds it to its target, because WebGL fixes a buffer's type at the first
-   * binding. The caller's vertex array object stays unchanged.
+   * Allocates a buffer of zeros. Binds it to its target, because WebGL fixes a buffer's type at the
+   * first binding. Does not change the caller's vertex array object.
    */
   #allocate(bytes: number): WebGLBuffer {
     const { gl } = this;

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Loader } from "three";
-import { RemoteModel, assetsBeside } from "../core/client.ts";
-import type { Assets } from "../core/messages.ts";
+import { assetsWith, type Assets } from "../core/assets.ts";
+import { RemoteModel } from "../core/client.ts";
 import { ProgressiveMesh } from "./progressive-mesh.ts";
 
 /**
- * Has the interface of GLTFLoader: `load` and `loadAsync` give a ProgressiveMesh that shows its base mesh;
- * `mesh.refine({ triangles: 50_000 })` refines it. The URL is that of a .pmesh file, a model page or an
- * API model.
+ * A loader with the interface of GLTFLoader. `load` and `loadAsync` give a ProgressiveMesh that
+ * shows its base mesh. `mesh.refine({ triangles: 50_000 })` refines the mesh. The URL is that of a
+ * .pmesh file, a model page or a model in the API.
  */
 export class ProgressiveMeshLoader extends Loader<ProgressiveMesh> {
-  #assets: Assets = assetsBeside(import.meta.url);
+  #assets: Partial<Assets> = {};
 
-  /** Sets the URLs of progressive-mesh.wasm and draco_decoder.{js,wasm}, if they are not in this module's folder. */
-  setAssets(assets: Assets): this {
+  /**
+   * Sets the URLs of the files that are neither in this module's folder nor where a bundler has put them. All models of a page
+   * share one worker and its decoders, so the URLs of the first model count.
+   */
+  setAssets(assets: Partial<Assets>): this {
     this.#assets = assets;
     return this;
   }
@@ -25,7 +28,7 @@ export class ProgressiveMeshLoader extends Loader<ProgressiveMesh> {
     onError?: (error: unknown) => void,
   ): void {
     const address = this.manager.resolveURL(this.path + url);
-    const mesh = new ProgressiveMesh(new RemoteModel(address, "auto", this.#assets));
+    const mesh = new ProgressiveMesh(new RemoteModel(address, "auto", assetsWith(this.#assets)));
     this.manager.itemStart(url);
     mesh.ready
       .then(() => onLoad(mesh))

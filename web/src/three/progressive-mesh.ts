@@ -1,71 +1,122 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  Box3, BufferGeometry, DoubleSide, Matrix4, Mesh, MeshStandardMaterial, Sphere, Vector3,
-  type Material, type Object3DEventMap, type PerspectiveCamera, type WebGLRenderer,
+  DoubleSide, Matrix4, Mesh, MeshStandardMaterial,
+  type BufferGeometry, type Camera, type Material, type Object3DEventMap, type PerspectiveCamera, type WebGLRenderer,
 } from "three";
 import type { RemoteModel } from "../core/client.ts";
 import type { Block, Change, ModelError, ModelInfo, Progress, Surface, Want } from "../core/types.ts";
+import { Appearance } from "./appearance.ts";
 import { Geomorph } from "./geomorph.ts";
 import type { Steps } from "./gpu-array.ts";
+import { GpuPicture } from "./gpu-picture.ts";
+import { Pictures } from "./pictures.ts";
+import { sizeOnScreen } from "./size-on-screen.ts";
 import { SurfaceBuffers, type Inbox } from "./surface-buffers.ts";
+import { SurfaceGeometry } from "./surface-geometry.ts";
 
-/** Milliseconds per frame for uploading a change. */
+/** Milliseconds in each frame that may be spent on uploading a change. */
 const kFrameBudget = 2;
+/**
+ * The level that the surface must reach before pictures finer than those in the file's head are
+ * fetched.
+ */
+const kLevelBeforePictures = 2;
 
 export interface ProgressiveMeshEventMap extends Object3DEventMap {
-  /** Dispatched when the geometry has a new state of the surface, so that the page can draw again. */
+  /** Dispatched when the geometry has a new state of the surface. The page should then draw again. */
   refine: { surface: Pick<Surface, "triangles" | "vertices" | "bytes"> };
-  /** Dispatched when a geomorph has advanced, so that the page can draw again. */
+  /** Dispatched when a geomorph has advanced. The page should then draw again. */
   morph: object;
+  /**
+   * Dispatched when a picture is shown. The page should then draw again. `texels` is the total of
+   * all pictures shown. `bytes` is the size of all pictures fetched, without those of the head.
+   */
+  picture: { side: number; texels: number; bytes: number };
+  /** Dispatched when the graphics memory of the mesh has changed. `geometry` and `pictures` are in bytes. */
+  memory: { geometry: number; pictures: number };
   progress: Progress;
-  /** Dispatched with a reason when the server does not respond, and with undefined when it responds again. */
+  /** Dispatched with a reason when the server stops responding, and with undefined when it responds again. */
   stalled: { reason: string | undefined };
   error: { error: ModelError };
 }
 
 /**
  * A mesh that is refined in place. Its origin is the centre of the model's bounding box
- * (`info.centre` in model coordinates). Add it to a scene and call `refine` or, when the camera rests,
- * `refineFor`. Draw on `refine` and `morph` events or continuously. `dispose` frees everything.
+ * (`info.centre` in model coordinates). Add the mesh to a scene, and call `refine`, or call
+ * `refineFor` whenever the camera has come to rest. Draw on `refine` and `morph` events, or
+ * continuously. `dispose` frees all memory.
  */
 export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, ProgressiveMeshEventMap> {
   readonly #model: RemoteModel;
   readonly #geomorph = new Geomorph();
+  readonly #appearance: Appearance;
+  #pictures: Pictures | undefined;
+  // Pictures that arrived while there was no WebGL context.
+  #early: { index: number; bands: ImageBitmap[] }[] = [];
+  #triangles = 0;
   #jobs: Steps[] = []; // uploads to GPU buffers, done one slice at a time
   #inbox: Inbox = { blocks: [], taken: [] };
   #taking: Steps | undefined;
   #buffers: SurfaceBuffers | undefined;
   #info: ModelInfo | undefined;
-  #canvas: HTMLCanvasElement | undefined;
+  #renderer: WebGLRenderer | undefined;
   #working = 0;
   #moving = 0;
   #base: { resolve(): void; reject(error: ModelError): void } | undefined;
+
+  /** Largest side of a picture that is fetched for this mesh, in pixels. */
+  maxTexture = Infinity;
 
   /** Resolves when the base mesh is in the geometry. */
   readonly ready: Promise<void>;
 
   constructor(model: RemoteModel) {
-    // Double-sided, because scans are often open and show their inside.
-    super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0, side: DoubleSide }));
+    // Draws both sides of faces, because scans are often open and show their inside.
+    super(new SurfaceGeometry(), new MeshStandardMaterial({ side: DoubleSide }));
+    this.#appearance = new Appearance(this.material);
     this.morph(this.material);
-    this.geometry.boundingSphere = new Sphere(); // empty until the base mesh is loaded
+    this.geometry.computeBoundingSphere(); // empty until the base mesh is loaded
     this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
-    this.onBeforeRender = (renderer) => this.drawBy(renderer);
+    this.onBeforeRender = (renderer, scene, camera) => {
+      this.drawBy(renderer);
+      // three.js before revision 163 has no intensity of a scene's environment.
+      this.#appearance.light(this.material.envMap ? this.material.envMapIntensity : scene.environment ? (scene.environmentIntensity ?? 1) : 0);
+      this.#requestPicture(renderer, camera);
+    };
     this.#model = model;
     model.listener = {
       opened: (info) => this.#open(info),
       change: (change, shown) => this.#accept(change, shown),
       block: (block) => this.#receive(block),
+      picture: (index, bands) => this.#acceptPicture(index, bands),
       progress: (progress) => this.dispatchEvent({ type: "progress", ...progress }),
       stalled: (reason) => this.dispatchEvent({ type: "stalled", reason }),
       failed: (error) => this.#fail(error),
     };
   }
 
-  /** The manifest; available after `ready`. */
+  /** The manifest. Available when `ready` has resolved. */
   get info(): ModelInfo {
     if (!this.#info) throw new Error("wait for `ready` first");
     return this.#info;
+  }
+
+  /** Whether `info` is available. */
+  get isOpen(): boolean {
+    return this.#info !== undefined;
+  }
+
+  /** Whether the model has colours or pictures, which `isBare` hides. */
+  get hasColours(): boolean {
+    return this.#appearance.hasColours;
+  }
+
+  /** Whether only the form is shown, in one plain tone. */
+  get isBare(): boolean {
+    return this.#appearance.isBare;
+  }
+  set isBare(on: boolean) {
+    this.#appearance.isBare = on;
   }
 
   /** Whether any vertices are moving in a geomorph. */
@@ -73,15 +124,18 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     return this.#moving !== 0;
   }
 
-  /** Resolves to true when `want` is reached and in the geometry, to false if superseded. */
+  /**
+   * Resolves to true when `want` is reached and in the geometry. Resolves to false if a later
+   * request replaces it.
+   */
   refine(want: Want): Promise<boolean> {
     return this.#model.refine(want);
   }
 
   /**
-   * Refines what `camera` sees in a viewport of `width` x `height` device pixels until no screen-space error exceeds
-   * `pixels`, or the page's budget is spent. Regions outside the view do not change: call this again when the camera
-   * has moved.
+   * Refines what `camera` sees in a viewport of `width` x `height` device pixels. Stops when no
+   * screen-space error exceeds `pixels`, or when the page's budget is spent. Does not change
+   * regions outside the view, so call this again when the camera has moved.
    */
   refineFor(camera: PerspectiveCamera, width: number, height: number, pixels = 1): Promise<boolean> {
     this.updateWorldMatrix(true, false);
@@ -97,15 +151,26 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   /**
-   * Sets the renderer that draws the mesh; there can be only one. Called automatically at the first frame if it
-   * has not been called before; that frame then shows nothing.
+   * Sets the renderer that draws the mesh. There can be only one. If this was not called before the
+   * first frame, that frame shows nothing and calls it.
    */
   drawBy(renderer: WebGLRenderer): void {
-    if (this.#canvas) return;
-    this.#canvas = renderer.domElement;
-    this.#canvas.addEventListener("webglcontextlost", this.#detach);
-    this.#canvas.addEventListener("webglcontextrestored", this.#restore);
+    if (this.#renderer) return;
+    this.#renderer = renderer;
+    renderer.domElement.addEventListener("webglcontextlost", this.#detach);
+    renderer.domElement.addEventListener("webglcontextrestored", this.#restore);
+    this.#acceptEarly();
     this.#attach();
+  }
+
+  /**
+   * Returns a mesh that shares geometry and material with this one, as for other meshes of three.js. It is refined with this
+   * one, until this one is disposed of.
+   */
+  override clone(recursive?: boolean): this {
+    const copy = new Mesh(this.geometry, this.material).copy(this as Mesh<BufferGeometry, MeshStandardMaterial>, recursive);
+    copy.onBeforeRender = this.onBeforeRender;
+    return copy as unknown as this;
   }
 
   dispose(): void {
@@ -113,37 +178,98 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     cancelAnimationFrame(this.#moving);
     this.#jobs.length = 0;
     this.#model.close();
-    this.#canvas?.removeEventListener("webglcontextlost", this.#detach);
-    this.#canvas?.removeEventListener("webglcontextrestored", this.#restore);
+    this.#renderer?.domElement.removeEventListener("webglcontextlost", this.#detach);
+    this.#renderer?.domElement.removeEventListener("webglcontextrestored", this.#restore);
     this.geometry.dispose();
     this.#buffers?.dispose();
-    this.material.dispose();
+    this.#appearance.dispose();
     this.removeFromParent();
   }
 
-  readonly #detach = () => this.#buffers?.detach();
+  readonly #detach = () => {
+    this.#buffers?.detach();
+    this.#appearance.forget();
+    this.#pictures?.forget();
+  };
 
-  readonly #restore = () => this.#attach();
+  readonly #restore = () => {
+    this.#attach();
+    const { pictures = [], inHead } = this.#info?.texture ?? {};
+    for (const [index, { side }] of pictures.slice(0, inHead).entries()) this.#model.showPicture({ index, side });
+    this.#acceptEarly();
+  };
 
   #attach(): void {
-    const gl = this.#canvas?.getContext("webgl2");
+    const gl = this.#renderer?.getContext() as WebGL2RenderingContext | undefined;
     if (gl && this.#buffers) this.#work(this.#attached(gl, this.#buffers));
   }
 
   #open(info: ModelInfo): void {
-    if (this.#info) return; // already set if the decoder was restarted
+    this.#pictures?.forgetRequest();
+    if (this.#info) return; // already set, if the decoder was restarted
     this.#info = info;
     const finest = info.levels[info.levels.length - 1];
-    if (finest) this.#buffers = new SurfaceBuffers(this.geometry, finest, info.attributes);
+    if (finest) this.#buffers = new SurfaceBuffers(this.geometry, finest, info.attributes, info.texture !== undefined);
+    if (info.texture) this.#pictures = new Pictures(info.texture);
+    this.#appearance.info = info;
     this.#attach();
-    if (info.attributes.includes("colour")) {
-      this.material.vertexColors = true;
-      this.material.color.set(0xffffff);
-    }
+  }
+
+  /**
+   * Requests the picture that fits the model's size on the screen of `camera`, if it is finer than
+   * the one shown.
+   */
+  #requestPicture(renderer: WebGLRenderer, camera: Camera): void {
+    const levels = this.#info?.levels ?? [], box = this.geometry.boundingBox;
+    const level = levels[Math.min(kLevelBeforePictures, levels.length - 1)];
+    if (!this.#pictures || !box || !level || this.#triangles < level.faces) return;
+    const pixels = sizeOnScreen(box, this.matrixWorld, camera, renderer.domElement.height);
+    const next = this.#pictures.next(pixels, {
+      side: Math.min(this.maxTexture, renderer.capabilities.maxTextureSize),
+      texels: this.#model.roomForTexels,
+      savesData: (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true,
+    });
+    if (next) this.#model.showPicture(next);
+  }
+
+  /** Uploads the pictures that waited for a context before any surface, so that no surface is shown without its pictures. */
+  #acceptEarly(): void {
+    const others = this.#jobs.splice(0);
+    for (const { index, bands } of this.#early.splice(0)) this.#acceptPicture(index, bands);
+    this.#jobs.push(...others);
+  }
+
+  #acceptPicture(index: number, bands: ImageBitmap[]): void {
+    if (this.#renderer) this.#work(this.#showPicture(this.#renderer, index, bands));
+    else this.#early.push({ index, bands });
+  }
+
+  /**
+   * Uploads and shows a picture that has arrived, unless a picture as fine is shown. If the WebGL context is lost, keeps the
+   * picture until it is restored. If it is lost during the upload, the picture is requested again.
+   */
+  *#showPicture(renderer: WebGLRenderer, index: number, bands: ImageBitmap[]): Steps {
+    if (renderer.getContext().isContextLost()) return void this.#early.push({ index, bands });
+    const pictures = this.#pictures, picture = { index, side: bands[0]?.width ?? 0 };
+    const role = pictures?.receive(picture);
+    if (!pictures || !role) return bands.forEach((band) => band.close());
+    const image = new GpuPicture(renderer, picture.side, role === "colour" || role === "emission");
+    yield* image.fill(bands);
+    if (!image.isPresent) return pictures.forgetRequest(), image.texture.dispose();
+    pictures.show(role, picture);
+    this.#appearance.show(role, image.texture);
+    const { texels, bytes } = pictures;
+    this.#model.holdTexels(texels);
+    this.dispatchEvent({ type: "picture", side: picture.side, texels, bytes });
+    this.#tellMemory();
+  }
+
+  #tellMemory(): void {
+    this.dispatchEvent({ type: "memory", geometry: this.#buffers?.bytes ?? 0, pictures: this.#pictures?.graphicsBytes ?? 0 });
   }
 
   #accept(change: Change, shown: () => void): void {
-    // If the decoder was restarted, the previous change may be incomplete and is dropped.
+    // Drops the previous change, which may be incomplete if the decoder was restarted.
     if (this.#taking) this.#jobs = this.#jobs.filter((job) => job !== this.#taking);
     this.#inbox = { blocks: [], taken: [] };
     this.#work((this.#taking = this.#taken(change, this.#inbox, shown)));
@@ -165,7 +291,9 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.#bound();
     if (morph) this.#move(change.number);
     const { triangles, vertices, bytes } = change;
+    this.#triangles = triangles;
     this.dispatchEvent({ type: "refine", surface: { triangles, vertices, bytes } });
+    this.#tellMemory();
     this.#base?.resolve();
     this.#base = undefined;
     requestAnimationFrame(shown);
@@ -180,7 +308,7 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.#working ||= requestAnimationFrame(() => this.#continue());
   }
 
-  /** Runs jobs until the frame's budget is spent, a change is ready to be drawn, or data are missing. */
+  /** Runs upload jobs until the frame's budget is spent, a change is ready to be drawn, or data are missing. */
   #continue(): void {
     performance.mark("progressive-mesh:begin");
     const end = performance.now() + kFrameBudget;
@@ -192,7 +320,7 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     }
     this.#giveBack();
     performance.mark("progressive-mesh:end");
-    // A performance trace has recorded the marks by now, so they need not stay in the page's memory.
+    // Removes the marks from the page's memory. A performance trace has recorded them by now.
     for (const mark of ["begin", "end"]) performance.clearMarks(`progressive-mesh:${mark}`);
     this.#working = 0;
     if (this.#jobs.length > 0 && pause?.value !== "wait") this.#goOn();
@@ -210,7 +338,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
 
   #advance(): void {
     const moving = this.#geomorph.advance(performance.now());
-    if (!moving) this.#buffers?.settle();
+    if (!moving && this.#buffers) {
+      this.#buffers.settle();
+      this.#tellMemory();
+    }
     this.#moving = moving ? requestAnimationFrame(() => this.#advance()) : 0;
     this.dispatchEvent({ type: "morph" });
   }
@@ -221,15 +352,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.dispatchEvent({ type: "error", error });
   }
 
-  /**
-   * Sets the bounds from the base mesh. The sphere's radius is half the diagonal of the box plus 10 %, because
-   * refinement may add vertices outside the box.
-   */
+  /** Sets the bounds from the base mesh. */
   #bound(): void {
     if (!this.#base) return;
-    const box = new Box3().setFromArray(this.geometry.getAttribute("position").array);
-    const centre = box.getCenter(new Vector3());
-    this.geometry.boundingBox = box;
-    this.geometry.boundingSphere = new Sphere(centre, 0.55 * box.getSize(new Vector3()).length());
+    this.geometry.computeBoundingBox();
+    this.geometry.computeBoundingSphere();
   }
 }

@@ -1,41 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// The buffers of a surface: arrays in main memory, which ray casting reads, and their copies in GPU memory.
-import { BufferAttribute, GLBufferAttribute, type BufferGeometry } from "three";
+// The buffers of a surface: arrays in main memory, which ray casting reads, and copies of them in
+// GPU memory.
+import type { BufferGeometry } from "three";
 import type { Semantic } from "../core/attributes.ts";
 import type { Block, Change, Level, NumericArray, SurfaceArray } from "../core/types.ts";
 import { GpuArray, type Steps } from "./gpu-array.ts";
+import { UploadedAttribute } from "./surface-geometry.ts";
 
-/** Bytes uploaded per step, for uploads that are not split into blocks. */
+/** Bytes uploaded per step, if an upload is not split into blocks. */
 const kSlice = 1 << 16;
 
-/** Names of the attributes in three.js, and their numbers of values per vertex in Surface. */
+/** Name of each attribute in three.js, and its number of values per vertex in Surface. */
 const kAttributes: Readonly<Record<Semantic, { name: string; width: 3 | 4 }>> = { colour: { name: "color", width: 4 } };
 
-/** An attribute whose array SurfaceBuffers uploads to the GPU; three.js must not upload it. */
-class MirroredAttribute extends BufferAttribute {
-  readonly isGLBufferAttribute = true;
-  readonly elementSize: number;
-
-  constructor(values: NumericArray, width: number, readonly buffer: WebGLBuffer | undefined, readonly type: number) {
-    super(values, width, values instanceof Int16Array || values instanceof Uint16Array);
-    this.elementSize = values.BYTES_PER_ELEMENT;
-  }
-}
-
 /**
- * One array of the surface. `values` has room for the finest level; the operating system provides the memory of each
- * page when it is first written. Without `values`, the array exists only on the GPU.
+ * One array of the surface. `values` has room for the finest level, or for more if chart borders
+ * add vertices. The unused part takes no memory, because the operating system provides each page of
+ * memory only when it is first written. Without `values`, the array exists only on the GPU.
  */
 interface Kind {
   /** Name of the attribute in three.js. */
   name: string;
-  width: 3 | 4;
+  width: 2 | 3 | 4;
   ArrayType: { new (buffer: ArrayBuffer, offset: number, length: number): NumericArray; BYTES_PER_ELEMENT: number };
   values?: NumericArray;
   type: number;
 }
 
-/** Received blocks, and the buffers of blocks already processed. */
+/** Received blocks, and the buffers of blocks that have been processed. */
 export interface Inbox {
   blocks: Block[];
   taken: ArrayBuffer[];
@@ -54,6 +46,7 @@ export class SurfaceBuffers {
     private readonly geometry: BufferGeometry,
     finest: Level,
     attributes: readonly Semantic[],
+    isTextured: boolean,
   ) {
     const { FLOAT, SHORT, UNSIGNED_SHORT, UNSIGNED_INT } = WebGL2RenderingContext;
     const { vertices, faces } = finest, kinds = this.#kinds;
@@ -63,13 +56,22 @@ export class SurfaceBuffers {
       const { name, width } = kAttributes[semantic];
       kinds.set(semantic, { name, width, ArrayType: Uint16Array, values: new Uint16Array(width * vertices), type: UNSIGNED_SHORT });
     }
+    if (isTextured) {
+      kinds.set("coordinates", { name: "uv", width: 2, ArrayType: Float32Array, values: new Float32Array(2 * vertices), type: FLOAT });
+      kinds.set("fromCoordinates", { name: "fromCoordinate", width: 2, ArrayType: Float32Array, type: FLOAT });
+    }
     kinds.set("indices", { name: "index", width: 3, ArrayType: Uint32Array, values: new Uint32Array(3 * faces), type: UNSIGNED_INT });
     kinds.set("fromPositions", { name: "fromPosition", width: 4, ArrayType: Float32Array, type: FLOAT });
     kinds.set("fromNormals", { name: "fromNormal", width: 4, ArrayType: Int16Array, type: SHORT });
     this.#describe();
   }
 
-  /** Uses `gl` from now on. Uploads the current surface in slices; it is drawn after the last one. */
+  /** Bytes of the arrays in GPU memory. */
+  get bytes(): number {
+    return [...this.#gpu.values()].reduce((sum, { bytes }) => sum + bytes, 0);
+  }
+
+  /** Uses the context `gl` from now on. Uploads the current surface in slices, and draws it after the last slice. */
   *attach(gl: WebGL2RenderingContext): Steps {
     this.#gl = gl;
     for (const [part, kind] of this.#kinds) {
@@ -86,7 +88,7 @@ export class SurfaceBuffers {
     if (this.#gl) this.#commit();
   }
 
-  /** Handles a lost WebGL context, whose arrays are gone. Nothing is drawn until attach() is called. */
+  /** Handles a lost WebGL context, whose buffers are gone. Nothing is drawn until attach() is called. */
   detach(): void {
     this.#gl = undefined;
     this.#gpu.clear();
@@ -94,11 +96,12 @@ export class SurfaceBuffers {
   }
 
   /**
-   * Applies a change block by block; it is drawn after the last step. With `morph`, its vertices move from their
-   * `from…` positions.
+   * Applies a change block by block. The change is drawn after the last step. With `morph`, its
+   * vertices move from their `from…` positions.
    */
   *take(change: Change, inbox: Inbox, morph: boolean): Steps {
     this.#isTaking = true;
+    yield* this.#reserve(change.vertices);
     for (const part of this.#gl ? this.#kinds.keys() : []) {
       if (morph || !isOrigin(part)) this.#begin(part, part === "indices" ? change.triangles : change.vertices);
     }
@@ -117,7 +120,22 @@ export class SurfaceBuffers {
     this.#commit();
   }
 
-  /** Called when all morphs have finished. Frees the `from…` arrays, unless another change is being applied. */
+  /** Makes room for `vertices` vertices in the arrays, slice by slice. */
+  *#reserve(vertices: number): Steps {
+    for (const [part, kind] of this.#kinds) {
+      const { values, width, ArrayType } = kind;
+      if (!values || part === "indices" || values.length >= width * vertices) continue;
+      const length = width * Math.ceil(1.5 * vertices), slice = kSlice / ArrayType.BYTES_PER_ELEMENT;
+      const larger = new ArrayType(new ArrayBuffer(length * ArrayType.BYTES_PER_ELEMENT), 0, length);
+      for (let at = 0; at < width * this.#vertices; at += slice) {
+        larger.set(values.subarray(at, Math.min(at + slice, values.length)), at);
+        yield "continue";
+      }
+      kind.values = larger;
+    }
+  }
+
+  /** Called when all morphs have finished. Frees the `from…` arrays, unless another change is in progress. */
   settle(): void {
     if (this.#isTaking || !this.#gpu.has("fromPositions")) return;
     this.#forget();
@@ -130,7 +148,7 @@ export class SurfaceBuffers {
   }
 
   #forget(): void {
-    for (const part of ["fromPositions", "fromNormals"] as const) {
+    for (const part of ["fromPositions", "fromNormals", "fromCoordinates"] as const) {
       this.#gpu.get(part)?.dispose();
       this.#gpu.delete(part);
     }
@@ -161,40 +179,40 @@ export class SurfaceBuffers {
     this.#describe();
   }
 
-  /** Updates the geometry to the current state. Creates new attributes each time, because three.js looks up an attribute's buffer only once. */
+  /**
+   * Updates the geometry to the current state. Creates new attributes each time, because three.js
+   * looks up the buffer of an attribute only once.
+   */
   #describe(): void {
     ++this.#version;
     for (const [part, kind] of this.#kinds) {
       if (kind.values) this.#mirror(part, kind, kind.values);
       else this.#lendOut(part, kind);
     }
-    // -1 draws nothing; with 0, three.js would still issue a draw call, which needs buffers.
+    // With -1, nothing is drawn. With 0, three.js would still issue a draw call, which needs
+    // buffers.
     this.geometry.setDrawRange(0, this.#gpu.size > 0 ? 3 * this.#triangles : -1);
   }
 
   #mirror(part: SurfaceArray, { name, width, type }: Kind, values: NumericArray): void {
     const present = values.subarray(0, width * this.#count(part));
-    const attribute = new MirroredAttribute(present, part === "indices" ? 1 : width, this.#gpu.get(part)?.buffer, type);
-    attribute.version = this.#version; // a new version, which makes three.js rebuild its wireframe index
+    const attribute = new UploadedAttribute(present, part === "indices" ? 1 : width, this.#gpu.get(part)?.buffer, type);
+    attribute.version = this.#version; // the new version makes three.js rebuild its wireframe index
     if (part === "indices") this.geometry.setIndex(attribute);
     else this.geometry.setAttribute(name, attribute);
   }
 
   /**
-   * Sets the geometry's attribute for an array that exists only on the GPU; deletes the attribute if there is no such
-   * array.
+   * Sets the geometry's attribute for an array that exists only on the GPU, so that the attribute has no values. Deletes the
+   * attribute if there is no such array.
    */
   #lendOut(part: SurfaceArray, { name, width, type, ArrayType }: Kind): void {
     const buffer = this.#gpu.get(part)?.buffer;
     if (!buffer) return void this.geometry.deleteAttribute(name);
-    const size = ArrayType.BYTES_PER_ELEMENT as 2 | 4; // required by the types of three.js
-    const attribute = Object.assign(new GLBufferAttribute(buffer, type, width, size, this.#vertices), {
-      normalized: type !== WebGL2RenderingContext.FLOAT,
-    });
-    this.geometry.setAttribute(name, attribute as unknown as BufferAttribute);
+    this.geometry.setAttribute(name, new UploadedAttribute(new ArrayType(new ArrayBuffer(0), 0, 0), width, buffer, type));
   }
 }
 
 function isOrigin(part: SurfaceArray): boolean {
-  return part === "fromPositions" || part === "fromNormals";
+  return part === "fromPositions" || part === "fromNormals" || part === "fromCoordinates";
 }

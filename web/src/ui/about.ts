@@ -3,20 +3,40 @@
 import type { ModelRecord } from "./api.ts";
 import { copyable } from "./copy.ts";
 import { h } from "./dom.ts";
-import { count, measure, size, texts } from "./texts/index.ts";
+import { count, date, measure, size, texts } from "./texts/index.ts";
 
 export function about(model: ModelRecord): Node[] {
   return [
     h("h2", {}, texts.about),
     h("div", { class: "description" }, ...(model.description ?? "").split(/\n+/).filter(Boolean).map((text) => h("p", {}, text))),
     h("dl", {}, ...facts(model).flatMap(([name, value]) => [h("dt", {}, texts.facts[name]), h("dd", {}, value)])),
-    h("h3", {}, texts.download),
-    downloads(model),
-    h("h3", {}, texts.embed),
-    h("p", { class: "quiet" }, texts.embedHint),
-    copyable(texts.embed, snippet(model, location.origin)),
-    h("p", {}, h("a", { href: `/iiif/${model.id}/manifest.json` }, texts.iiif)),
+    h("div", { class: "offers" },
+      h("h3", {}, texts.download),
+      downloads(model),
+      h("h3", {}, texts.embed),
+      h("p", { class: "quiet" }, texts.embedHint),
+      copyable(texts.embed, snippet(model, location.origin)),
+      h("p", { class: "quiet" }, texts.frameHint),
+      copyable(texts.embed, frame(model, location.origin)),
+      h("p", {}, h("a", { href: `/iiif/${model.id}/manifest.json` }, texts.iiif)),
+      h("p", {}, h("a", { href: `/compare.html?left=${model.id}` }, texts.compare.other))),
+    printed(model),
   ];
+}
+
+/** Returns the line that only the printed page has. It states the day of printing. */
+function printed(model: ModelRecord): HTMLElement {
+  const line = h("p", { class: "printed" });
+  const write = () => (line.textContent = citation(model, location.origin, date(new Date().toISOString())));
+  addEventListener("beforeprint", write);
+  write();
+  return line;
+}
+
+/** Returns how to cite the object's page, as it was seen on `today`. */
+export function citation({ creator, title, publisher, date: made, licence, links }: ModelRecord, origin: string, today: string): string {
+  const work = [creator, title || texts.untitled].filter(Boolean).join(": "), source = [publisher, made].filter(Boolean).join(", ");
+  return [work, source, licence, `${origin}${links.page}`].filter(Boolean).join(". ") + `, ${texts.viewed(today)}.`;
 }
 
 type Fact = [name: keyof typeof texts.facts, value: Node | string];
@@ -33,14 +53,14 @@ function facts(model: ModelRecord): Fact[] {
   ];
 }
 
-/** Returns a link if the text is a URL, else the text. */
+/** Returns a link if the text is a URL. Otherwise returns the text. */
 function linked(text: string): Node | string {
   return /^https?:\/\/\S+$/.test(text) ? h("a", { href: text, rel: "noopener" }, text.replace(/^https?:\/\//, "")) : text;
 }
 
 /**
- * Returns a link to the licence's page if `text` is a URL or the SPDX identifier of a Creative Commons licence, else
- * `text`.
+ * Returns a link to the page of the licence if `text` is a URL or names a Creative Commons licence,
+ * such as CC-BY-4.0. Otherwise returns `text`.
  */
 function licence(text: string): Node | string {
   const [, kind, version] = /^CC-(BY[A-Z-]*)-(\d\.\d)$/.exec(text) ?? [];
@@ -52,7 +72,7 @@ function licence(text: string): Node | string {
 type Format = keyof typeof texts.formats;
 type Detail = keyof typeof texts.levels;
 
-/** Returns the download URL of the model in a format and level of detail. */
+/** Returns the URL for downloading the model in a format and a level of detail. */
 export function downloadOf(model: ModelRecord, format: Format, detail: Detail): string {
   if (format === "pmesh") return model.links.file;
   const query = detail === "highest" || detail === "lowest" ? `level=${detail}` : `triangles=${detail}`;
@@ -63,7 +83,9 @@ function downloads(model: ModelRecord): HTMLElement {
   const options = (names: Record<string, string>) => Object.entries(names).map(([value, name]) => h("option", { value }, name));
   const levels = Object.entries(texts.levels).filter(([name]) => !(Number(name) >= model.faces));
   const format = h("select", {}, ...options(texts.formats)), level = h("select", {}, ...options(Object.fromEntries(levels)));
-  level.value = "highest"; // not the first option, because objects list numeric keys first
+  // Selects the default. It is not the first option, because JavaScript puts numeric keys before
+  // others.
+  level.value = "highest";
   const link = h("a", { class: "button", download: true }, texts.download);
   const follow = () => {
     level.disabled = format.value === "pmesh";
@@ -76,8 +98,16 @@ function downloads(model: ModelRecord): HTMLElement {
 
 const escaped = (text: string) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
 
-/** Returns HTML that embeds the object in a page of another site. */
+const kShape = "width: 100%; aspect-ratio: 4 / 3";
+
+/** Returns HTML code that embeds the object in a page of another site. */
 export function snippet({ links, title }: ModelRecord, origin: string): string {
   return `<script type="module" src="${origin}/progressive-mesh.js"></script>\n` +
-    `<progressive-mesh src="${origin}${links.self}" alt="${escaped(title || texts.untitled)}"></progressive-mesh>`;
+    `<progressive-mesh src="${origin}${links.self}" alt="${escaped(title || texts.untitled)}" camera-controls ` +
+    `poster="${origin}${links.self}/poster.png?width=960" style="${kShape}"></progressive-mesh>`;
+}
+
+/** Returns HTML code that shows the object's page in a frame, for sites whose editors remove scripts. */
+export function frame({ links, title }: ModelRecord, origin: string): string {
+  return `<iframe src="${origin}${links.page}" title="${escaped(title || texts.untitled)}" allow="fullscreen; web-share" style="${kShape}; border: 0"></iframe>`;
 }

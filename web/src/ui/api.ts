@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Client of the part of the daemon's API that the pages use.
+// Client of the part of the daemon's API that visitors' pages use.
 export type Unit = "mm" | "cm" | "m" | "in";
 
 /** Optional metadata (Dublin Core). */
@@ -15,7 +15,7 @@ export interface ModelRecord extends MoreTexts {
   rights: string;
   licence: string;
   unit: Unit | ""; // "" if unknown
-  accuracy: number | null; // in `unit`
+  accuracy: number | null; // in the model's `unit`
   public_max_level: number | null;
   created: string;
   vertices: number;
@@ -47,7 +47,7 @@ export class ApiError extends Error {
   }
 }
 
-/** Timeout of a request, in milliseconds. */
+/** Timeout of a request in milliseconds. */
 const kTimeout = 20_000;
 
 export interface ModelListPage {
@@ -55,7 +55,7 @@ export interface ModelListPage {
   next: string | null; // the cursor of the next page
 }
 
-/** Models per page: a multiple of 2, 3 and 4, so that the last row is full if rows have 2, 3 or 4 models. */
+/** Models per page. A multiple of 2, 3 and 4, so that the last row is full with 2, 3 or 4 models per row. */
 const kPage = 24;
 
 /** Returns a page of the published models that contain all `words`, newest first. */
@@ -76,8 +76,8 @@ export function scan(id: string): Promise<ScanRecord> {
 }
 
 /**
- * Returns x, y and z of a scan's points from point number `from` on, as many as fit into one response. Coordinates are
- * in mm, with z upwards.
+ * Returns x, y and z of a scan's points, starting at point number `from`. One response may not
+ * contain all of them. Coordinates are in mm, with z upwards.
  */
 export async function scanPoints(id: string, from: number): Promise<Float32Array> {
   const answer = await ask(`/api/v1/scans/${encodeURIComponent(id)}/points?from=${from}`, "application/octet-stream");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene around a growing point cloud. The camera keeps the whole cloud in view and slowly circles it, until a
-// visitor takes control of the camera.
+// The scene around a growing point cloud. The camera keeps the whole cloud in view and circles it
+// slowly, until a visitor takes control of the camera.
 import { PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { distanceFor, kFieldOfView, kViewpoint } from "../element/viewpoint.ts";
@@ -11,9 +11,9 @@ import { Extent } from "./extent.ts";
 const kPointSize = 1.5;
 /** Revolutions of the camera per minute. */
 const kTurns = 1.2;
-/** Seconds in which the camera covers about two thirds (1 - 1/e) of the remaining distance to its goal. */
+/** Seconds in which the camera covers about two thirds (1 - 1/e) of the distance to its goal. */
 const kLag = 0.6;
-/** The camera stops following if it is closer to its goal than this fraction of the viewing distance. */
+/** The camera stops moving when its distance to the goal is below this fraction of the viewing distance. */
 const kNear = 1e-3;
 
 export class CloudStage {
@@ -27,7 +27,7 @@ export class CloudStage {
   #before = 0; // time of the previous frame, in milliseconds
   #isHeld = false; // whether a visitor has taken control of the camera
 
-  /** If `isStill`, the camera does not move by itself. Throws if WebGL is not available. */
+  /** If `isStill` is true, the camera does not move by itself. Throws if WebGL is not available. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly isStill: boolean) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -50,7 +50,7 @@ export class CloudStage {
     this.draw();
   }
 
-  /** Removes all points, because the scan measures again. A camera that a visitor controls stays in place. */
+  /** Removes all points. Called when the scan measures again. If a visitor controls the camera, it stays in place. */
   restart(): void {
     this.#cloud.empty();
     this.#extent = new Extent();
@@ -98,7 +98,8 @@ export class CloudStage {
 
   #render(now: number): void {
     this.#frame = 0;
-    const seconds = Math.min((now - this.#before) / 1000, 0.1); // limits the step after the page was in the background
+    // Time since the previous frame, but at most 0.1 s, even if the page was in the background.
+    const seconds = Math.min((now - this.#before) / 1000, 0.1);
     this.#before = now;
     if (this.#cloud.isEmpty) return;
     const moving = !this.#isHeld && this.#follow(this.isStill ? 1 : 1 - Math.exp(-seconds / kLag));
@@ -109,8 +110,8 @@ export class CloudStage {
   }
 
   /**
-   * Moves the camera by `share` of the distance to its goal, the position from which it sees all points. Returns false
-   * if it was at the goal.
+   * Moves the camera towards its goal, by the fraction `share` of the distance. The goal is the
+   * position from which the camera sees all points. Returns false if the camera was already there.
    */
   #follow(share: number): boolean {
     const { target } = this.#controls, offset = this.#camera.position.clone().sub(target);

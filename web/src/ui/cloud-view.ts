@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A canvas with a growing point cloud. The stage, which needs WebGL, is created when the first points arrive: visitors
-// who come after the scan see only the model.
+// A canvas with a growing point cloud. The stage needs WebGL and is created when the first points
+// arrive. Visitors who come after the scan see only the model, without a stage.
 import { CloudStage } from "./cloud-stage.ts";
 
 const media = (query: string) => matchMedia(`(${query})`);
 
 export class CloudView {
-  #stage: CloudStage | null | undefined; // undefined before the first points; null if disposed of or without WebGL
+  // Undefined before the first points arrive. Null if WebGL is not available or the view is
+  // disposed of.
+  #stage: CloudStage | null | undefined;
   readonly #size = new ResizeObserver(() => this.#fit());
   readonly #theme = media("prefers-color-scheme: dark");
   readonly #restyle = () => this.#stage?.restyle();
 
-  /** The canvas always gets the size of `box`. */
+  /** Keeps the canvas at the size of `box`. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly box: HTMLElement) {
     this.#size.observe(box);
     this.#theme.addEventListener("change", this.#restyle);
@@ -21,7 +23,7 @@ export class CloudView {
     this.#opened()?.add(points);
   }
 
-  /** Removes all points, because the scan measures again. */
+  /** Removes all points. Called when the scan measures again. */
   restart(): void {
     this.#stage?.restart();
   }
@@ -44,7 +46,7 @@ export class CloudView {
       this.#stage = new CloudStage(this.canvas, media("prefers-reduced-motion: reduce").matches);
       this.#fit();
     } catch {
-      this.#stage = null; // no WebGL: the page shows only the texts
+      this.#stage = null; // without WebGL, the page shows only the texts
     }
     return this.#stage;
   }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A growing point cloud for three.js, in one buffer that doubles when it is full.
+// A growing point cloud for three.js. Its points are in one buffer, which is replaced by one of
+// twice the size when full.
 import { BufferAttribute, BufferGeometry, Color, GLSL3, LinearSRGBColorSpace, Points, ShaderMaterial } from "three";
 
 const kFirstRoom = 1 << 16; // number of points that the first buffer can hold
-/** Assumed share of the canvas that an object covers. */
+/** Share of the canvas that an object is assumed to cover. */
 const kShare = 0.25;
 const kFaintest = 0.15;
 
@@ -28,8 +29,9 @@ const kFragment = `
   }`;
 
 /**
- * A point cloud. Distant points are fainter; the newest points have the accent colour. Each point is more transparent
- * the more points there are, so that folds and rims, where many points overlap, stay visible.
+ * A point cloud. Distant points are fainter, and the newest points have the accent colour. The more
+ * points there are, the more transparent each is. So folds and rims, where many points overlap,
+ * stay visible.
  */
 export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
   #count = 0;
@@ -45,8 +47,9 @@ export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
         ink: uniform(new Color()), accent: uniform(new Color()),
       },
     }));
-    this.frustumCulled = false; // three.js would cull by the bounds of the first points, but the cloud grows
-    this.rotation.x = -Math.PI / 2; // turns measured points, with z upwards, to the y upwards of three.js
+    // Disables culling. three.js would cull by the bounds of the first points, but the cloud grows.
+    this.frustumCulled = false;
+    this.rotation.x = -Math.PI / 2; // Measured points have z upwards, but three.js has y upwards.
     this.geometry.setAttribute("position", this.#positions);
   }
 
@@ -76,14 +79,15 @@ export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
     return this.#count === 0;
   }
 
-  /** Sets the size of a point in device pixels; `pixels` is the number of pixels of the canvas. */
+  /** Sets the size of a point in device pixels. `pixels` is the number of pixels of the whole canvas. */
   spread(size: number, pixels: number): void {
     this.#set("size", size);
     this.#set("cover", Math.min(1, Math.max(kFaintest, (kShare * pixels) / (this.#count * size * size))));
   }
 
   /**
-   * Sets the distances from the camera between which points fade: fully visible up to `near`, faintest from `far` on.
+   * Sets the distances from the camera between which points fade. Points up to `near` are fully
+   * visible; points from `far` on are faintest.
    */
   fade(near: number, far: number): void {
     this.#set("near", near);
@@ -92,7 +96,7 @@ export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
 
   /** Sets the CSS colours of the points. */
   paint(colours: Record<"ink" | "accent", string>): void {
-    // The shader outputs the colours without conversion.
+    // Sets the CSS values without conversion, because the shader outputs them without conversion.
     for (const [name, css] of Object.entries(colours)) this.#set(name, new Color().setStyle(css, LinearSRGBColorSpace));
   }
 

@@ -12,7 +12,7 @@ export function copyable(label: string, text: string): HTMLElement {
   return h("div", { class: "copyable" }, field, h("p", {}, h("button", { type: "button", onclick: () => void copy() }, texts.copy), said));
 }
 
-/** Selects the text and copies it. Returns false if the browser refuses, for example on pages without TLS. */
+/** Selects the text and copies it. Returns false if the browser refuses, for example because the page has no TLS. */
 async function isCopied(field: HTMLTextAreaElement): Promise<boolean> {
   field.select();
   try {

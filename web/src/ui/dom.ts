@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Helpers for creating and finding elements. User input becomes text nodes or attribute values, never HTML.
+// Functions that create and find elements. User input becomes text nodes or attribute values, never
+// HTML.
 type Child = Node | string | false | null | undefined;
 type ElementAttributes = Record<string, string | number | boolean | ((event: Event) => void) | null | undefined>;
 
 /**
- * Creates an element. In `attributes`, functions (`on…`) become listeners and `true` becomes an attribute without a
- * value. Attributes and children that are null, undefined or false are omitted.
+ * Creates an element. In `attributes`, functions (`on…`) become listeners, and `true` becomes an
+ * attribute without a value. Omits attributes and children that are null, undefined or false.
  */
 export function h<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
@@ -26,8 +27,8 @@ export function byId<Type extends HTMLElement>(id: string): Type {
 }
 
 /**
- * Creates a square, lazily loaded image. Its size is set in advance, so that the layout does not shift. If loading
- * fails, it is removed.
+ * Creates a square image that is loaded lazily. Its size is set in advance, so that the layout does
+ * not shift. The image is removed if loading fails.
  */
 export function square(src: string, side: number): HTMLImageElement {
   const image = h("img", { loading: "lazy", alt: "", width: side, height: side, src });

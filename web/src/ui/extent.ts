@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /**
- * The upright cylinder around the turntable's axis that contains all points so far. Its size hardly changes once the
- * first side of the object has been measured, so the camera need not move. A bounding box would grow with each side.
+ * The upright cylinder around the turntable's axis that contains all points so far. The cylinder
+ * hardly grows after the first side of the object has been measured, so the camera need not move. A
+ * bounding box would grow with each side.
  */
 export class Extent {
   radius = 0;
   low = Infinity;
   high = -Infinity;
 
-  /** Adds points given as x, y, z, with z upwards. */
+  /** Adds points, given as x, y, z with z upwards. */
   add(points: Float32Array): void {
     for (let i = 0; i + 2 < points.length; i += 3) {
       const z = points[i + 2] as number;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Polls a scan until it has ended, and reports its state, its new points and lost connections.
+// Polls a scan until it has ended. Reports its state, its new points, and lost connections.
 import { ApiError, type ScanRecord, type ScanState } from "./api.ts";
 
 export interface ScanSource {
@@ -9,15 +9,18 @@ export interface ScanSource {
 
 export interface ScanSight {
   show(scan: ScanRecord): void;
-  restart(): void; // called when all points so far are obsolete; the scan's current points follow
+  restart(): void; // called when all points so far are invalid; the scan's valid points follow
   grow(points: Float32Array): void;
-  lost(): void; // called when the server does not respond; the request is retried
-  missing(): void; // called if there is no such scan or it is not public
+  lost(): void; // called when the server does not respond; the request is sent again
+  missing(): void; // called if the scan does not exist or is not public
 }
 
 /** Maximum number of points in one response. */
 const kFull = 250_000;
-/** Polling interval in milliseconds for each state of a scan. A scan in any other state has ended and is not polled. */
+/**
+ * Polling interval, in milliseconds, for each state of a scan. A scan in any other state has ended
+ * and is not polled.
+ */
 const kPause: Partial<Record<ScanState, number>> = {
   waiting: 1000, scanning: 500, paused: 2000, meshing: 500, building: 500,
   failed: 10_000, // polled, because an operator may resume a failed scan
@@ -47,8 +50,8 @@ export async function watchScan(source: ScanSource, sight: ScanSight, wait: Poll
 }
 
 /**
- * Polls the scan once. Fetches new points before it shows the state, so that all points are shown when the scan ends.
- * Returns the state.
+ * Polls the scan once and returns its state. Fetches new points before it shows the state, so that
+ * all points are visible when the scan ends.
  */
 async function look(source: ScanSource, sight: ScanSight, growth: Growth): Promise<ScanState> {
   const scan = await source.scan();
@@ -59,13 +62,13 @@ async function look(source: ScanSource, sight: ScanSight, growth: Growth): Promi
 
 class Growth {
   #held = 0;
-  #reported = 0; // number of points according to the last scan record, which may be fewer than can be fetched
+  #reported = 0; // number of points in the last scan record; more may be available by now
 
   constructor(private readonly source: ScanSource, private readonly sight: ScanSight) {}
 
   /**
-   * Fetches new points. If `reported` is lower than before, the scan has restarted, so all its
-   * points are fetched again.
+   * Fetches new points. Fetches all points again if `reported` is lower than before, because the
+   * scan has then restarted.
    */
   async follow(reported: number): Promise<void> {
     if (reported < Math.min(this.#held, this.#reported)) this.#restart();
@@ -84,7 +87,7 @@ class Growth {
   }
 }
 
-/** Whether a request that failed with `error` would fail again if it were repeated. */
+/** Whether a request that failed with `error` would fail again. */
 function isFinal(error: unknown): boolean {
   return error instanceof ApiError && error.status >= 400 && error.status < 500 && error.status !== 408 && error.status !== 429;
 }

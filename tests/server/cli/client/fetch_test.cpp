@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of `vitrine fetch` with the real daemon.
+// Tests `vitrine fetch` with the real daemon.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,6 +19,7 @@
 #include "support/process/run_program.h"
 #include "support/product_names.h"
 #include "support/temporary_folder.h"
+#include "support/tiny_pmesh.h"
 #include "support/wavy_sheet.h"
 
 namespace vitrine::test {
@@ -61,8 +62,8 @@ class FetchTest : public ::testing::Test {
   ProgramResult fetch(const std::string& from, const std::string& out,
                       std::vector<std::string> more = {},
                       const std::string& variable = "A=") const {
-    more.insert(more.begin(), {"env", variable, VITRINE_BIN_DIR "/vitrine", "fetch", from, "-o",
-                               (results.path() / out).string(), "--json"});
+    more.insert(more.begin(), {"env", variable, VITRINE_BIN_DIR "/vitrine", "fetch", from,
+                               "--force", "-o", (results.path() / out).string(), "--json"});
     return run_program(more);
   }
   // Returns the number of files in the folder of the results, part files included.
@@ -85,6 +86,19 @@ TEST_F(FetchTest, FetchesTheWholeFile) {
   EXPECT_EQ(report["bytes"], sheet().size());
   EXPECT_EQ(report["received_bytes"], sheet().size());
   EXPECT_EQ(files(), 1u) << "what was on its way is gone";
+}
+
+TEST_F(FetchTest, FetchesThePicturesOfATexture) {
+  const auto textured = tiny_pmesh("a base", "a chunk", {"small picture", "larger picture"}).bytes;
+  {
+    const auto installation = open_installation({.folder = data.path()}).value();
+    id = publish(*installation.store, *installation.catalogue, textured, {}).value().id.to_string();
+  }
+  const Daemon daemon(data.path());
+  const auto run = fetch(url(daemon.port()), "textured.pmesh");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(file_at(results.path() / "textured.pmesh"), textured);
+  EXPECT_EQ(Json::parse(run.output)["received_bytes"], textured.size());
 }
 
 TEST_F(FetchTest, MeetsTheDetailTarget) {

@@ -53,6 +53,33 @@ TEST_F(PartialModelTest, BecomesTheFile) {
   EXPECT_EQ(std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), {}), pmesh.bytes);
 }
 
+TEST_F(PartialModelTest, TakesThePicturesThatAreNotInTheHead) {
+  const TinyPmesh textured = tiny_pmesh("a base mesh", "the chunk's bytes", {"small", "larger"});
+  const Manifest& manifest = textured.manifest;
+  const std::span all(textured.bytes);
+  const auto head = static_cast<std::uint32_t>(manifest.head_bytes());
+  {
+    PartialModel model = open();
+    auto damaged = textured.bytes;
+    damaged[head - 1] ^= 1;  // damages the picture in the head
+    EXPECT_FALSE(model.add({.total = head}, std::span(damaged).first(head)));
+    ASSERT_TRUE(model.add({.total = head}, all.first(head)));
+    EXPECT_TRUE(model.holds_picture(0));
+    EXPECT_FALSE(model.holds_picture(1));
+    EXPECT_EQ(model.bytes(), head);
+    EXPECT_FALSE(model.add_picture(1, to_bytes("another")));
+    ASSERT_TRUE(model.add_picture(1, to_bytes("larger")));
+    EXPECT_EQ(model.bytes(), head + 6);
+  }
+  PartialModel model = open();
+  EXPECT_TRUE(model.holds_picture(1)) << "kept for the next run";
+  const ChunkInfo& chunk = manifest.chunks[0];
+  ASSERT_TRUE(model.add({.level = 1, .total = static_cast<std::uint32_t>(chunk.length)},
+                        all.subspan(chunk.offset, chunk.length)));
+  std::ifstream file(model.path(), std::ios::binary);
+  EXPECT_EQ(std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), {}), textured.bytes);
+}
+
 TEST_F(PartialModelTest, IsContinuedByTheNextRun) {
   {
     PartialModel model = open();

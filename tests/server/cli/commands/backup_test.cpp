@@ -8,6 +8,28 @@
 namespace vitrine::test {
 namespace {
 
+// Flips a bit of the only object in the data folder. Returns the object's SHA-256.
+std::string damage_object(const std::filesystem::path& data) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(data / "objects")) {
+    if (!entry.is_regular_file()) continue;
+    std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(1000);
+    const int byte = file.get();
+    file.seekp(1000).put(static_cast<char>(byte ^ 1));
+    return entry.path().filename().string();
+  }
+  throw std::runtime_error("no object in " + data.string());
+}
+
+// Returns the doctor's verdict on the objects in the data folder.
+std::string verdict_on_objects(const std::string& data) {
+  const auto result = run_program({kVitrine, "doctor", "--data", data, "--scrub", "--json"});
+  const auto checks = nlohmann::json::parse(result.output)["checks"];
+  const auto found = std::ranges::find_if(
+      checks, [](const nlohmann::json& check) { return check["check"] == "objects"; });
+  return found == checks.end() ? "" : (*found)["verdict"].get<std::string>();
+}
+
 TEST_F(VitrineCommand, BacksUpAnInstallationAndRestoresIt) {
   const std::string data = empty_folder("data");
   const std::string id = vitrine_json({"publish", model(), "--data", data})["id"];
@@ -25,6 +47,41 @@ TEST_F(VitrineCommand, AFolderWithoutAnInstallationIsNotBackedUp) {
   expect_fault(vitrine({"restore", path("none.tar"), "--data", path("again")}), 1);
   expect_fault(vitrine({"restore", path("none.tar")}), 2);
   EXPECT_THAT(files(), ::testing::ElementsAre("none"));
+}
+
+TEST_F(VitrineCommand, ADamagedFileIsFoundLeftOutOfABackupAndPutBackFromAnOlderOne) {
+  const std::string data = empty_folder("data"), tar = path("backup.tar"),
+                    later = path("later.tar");
+  vitrine_json({"publish", model(), "--data", data});
+  vitrine_json({"backup", "--data", data, "-o", tar});
+  EXPECT_EQ(verdict_on_objects(data), "ok");
+  const auto damaged = damage_object(data);
+  const auto doctor = vitrine({"doctor", "--data", data, "--scrub"});
+  EXPECT_EQ(doctor.exit_code, 1);
+  EXPECT_THAT(doctor.output, ::testing::HasSubstr("object " + damaged));
+  const auto saved = vitrine({"backup", "--data", data, "-o", later});
+  expect_fault({saved.exit_code, "", saved.errors}, 1);
+  EXPECT_THAT(saved.output, ::testing::HasSubstr(damaged));
+  EXPECT_TRUE(std::filesystem::exists(later));
+  expect_fault(vitrine({"repair", "--data", data, "--backup", later}), 1);
+  const auto done = vitrine_json({"repair", "--data", data, "--backup", tar});
+  EXPECT_EQ(done["repaired"].at(0)["object"], damaged);
+  EXPECT_EQ(done["damaged"].size(), 0u);
+  EXPECT_EQ(verdict_on_objects(data), "ok");
+}
+
+TEST_F(VitrineCommand, ADamagedFileIsPutBackFromAnotherInstallation) {
+  const std::string data = empty_folder("data"), other = path("other");
+  vitrine_json({"publish", model(), "--data", data});
+  vitrine_json({"backup", "--data", data, "-o", path("backup.tar")});
+  vitrine_json({"restore", path("backup.tar"), "--data", other});
+  damage_object(data);
+  const auto done = vitrine_json({"repair", "--data", data, "--from", other});
+  EXPECT_EQ(done["repaired"].size(), 1u);
+  expect_fault(vitrine({"repair", "--data", data}), 2);
+  expect_fault(vitrine({"repair", "--data", data, "--from", other, "--backup", "x.tar"}), 2);
+  expect_fault(vitrine({"repair", "--backup", "x.tar"}), 2);
+  expect_fault(vitrine({"doctor", "--scrub"}), 2);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "server/store/text.h"
 #include "support/product_names.h"
 #include "vitrine_command.h"
 
@@ -294,10 +295,10 @@ TEST_F(VitrineCommand, AModelThatWasTurnedUpIsMeasuredAgainstTheTurnedInput) {
 TEST_F(VitrineCommand, VerticesMovedBySinglePrecisionAreNoted) {
   const std::string in =
       write("far.obj", "v 456789 5432109 0\nv 456790 5432109 0\nv 456789 5432110 0\nf 1 2 3\n");
-  vitrine_json({"build", in, "-o", path("far.pmesh")});
+  vitrine_json({"build", in, "-o", path("far.pmesh"), "--unit", "m"});
   for (const std::string format : {"stl", "drc"}) {
     const ProgramResult moved = vitrine({"decode", path("far.pmesh"), "-o", path("far." + format)});
-    expect_fault(moved, 0);  // a note has the same form as an error
+    expect_fault(moved, 0);  // the note has the same form as an error message
     EXPECT_THAT(moved.errors, HasSubstr("by up to 0.25; write PLY, OBJ or GLB"));
   }
   for (const std::string format : {"ply", "obj", "glb", "wrl"})
@@ -342,6 +343,32 @@ TEST_F(VitrineCommand, HelpAndVersionGoToStdout) {
     EXPECT_NE(vitrine({"--help"}).output.find(command), std::string::npos);
   }
   EXPECT_EQ(vitrine({"--version"}).output.rfind("vitrine ", 0), 0u);
+}
+
+TEST_F(VitrineCommand, NamesThatAreNotUtf8AreShownAsPlainText) {
+  const std::string odd = path("b\xfcste\n\x1b[2J.ply"), out = path("out.pmesh");
+  const std::vector<std::vector<std::string>> lines = {
+      {"b\xfcld"},
+      {"info", odd, "--js\xffn"},
+      {"info", odd, "--json"},
+      {"build", odd, "-o", out, "--json"},
+      {"build", odd, "-o", out, "--unit", "\xff"},
+      {"decode", odd, "-o", out},
+      {"verify", odd, "--json"},
+      {"measure", odd, odd, "--json"},
+      {"publish", odd, "--data", odd, "--json"},
+      {"backup", odd, "--data", odd},
+      {"token", "create", "--data", odd, "--role", "\xff"}};
+  for (const auto& words : lines) {
+    const ProgramResult result = vitrine(words);
+    ASSERT_TRUE(result.errors.ends_with('\n')) << words[0];
+    const std::string_view line =
+        std::string_view(result.errors).substr(0, result.errors.size() - 1);
+    EXPECT_TRUE(is_plain_text(line)) << line;
+    EXPECT_TRUE(result.output.empty() || nlohmann::json::accept(result.output)) << result.output;
+  }
+  const ProgramResult doctor = vitrine({"doctor", "--data", empty_folder("b\xfcste"), "--json"});
+  EXPECT_TRUE(nlohmann::json::accept(doctor.output)) << doctor.output;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of damage to a .pmesh file gives a one-line error.
+// Tests that every kind of damage to a .pmesh file gives a one-line error.
 #include "codec/format/manifest.h"
 #include "support/product_names.h"
 #include "support/seeds.h"
@@ -56,7 +56,7 @@ TEST_F(VitrineCommand, AFileThatIsCutInItsBaseHasNoCoarserLevelToAskFor) {
   EXPECT_THAT(result.errors, ::testing::EndsWith("; fetch it again\n"));
 }
 
-// The test corrects the SHA-256, so that Draco decodes the damaged bytes.
+// The test corrects the SHA-256, so that the damaged bytes are decoded.
 TEST_F(VitrineCommand, AHostileBaseMeshIsAnErrorOrAMeshButNeverACrash) {
   model(600);
   const std::string bytes = read("model.pmesh");

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures that the program prints for a level must hold for the exported file when other
-// software reads it.
+// Tests the figures that the program prints for a level. They must hold for the exported file when
+// other software reads it.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 
+#include "codec/core/bounds.h"
 #include "support/dense_distance.h"
 #include "support/product_names.h"
 #include "support/read_export.h"
@@ -26,7 +29,7 @@ TEST_F(VitrineCommand, TheErrorOfTheTableBoundsEveryExportOfEveryLevel) {
   const std::string in = write("in.ply", bumpy_ply(2'000));
   const TriangleMesh original = read_as(read("in.ply"), MeshFormat::kPly);
   for (const std::string bits : {"12", "15"}) {
-    vitrine_json({"build", in, "-o", path("out.pmesh"), "--bits", bits});
+    vitrine_json({"build", in, "-o", path("out.pmesh"), "--bits", bits, "--unit", "m"});
     const json levels = vitrine_json({"info", path("out.pmesh")})["levels"];
     ASSERT_GE(levels.size(), 3u);
     for (const std::string extension : {"ply", "glb", "obj", "stl", "drc", "wrl"}) {
@@ -34,8 +37,8 @@ TEST_F(VitrineCommand, TheErrorOfTheTableBoundsEveryExportOfEveryLevel) {
         SCOPED_TRACE(extension + " of level " + std::to_string(level) + ", " + bits + " bits");
         const double stated = levels[level]["max_error"].get<double>();
         const std::string out = "out." + extension;
-        vitrine_json({"decode", path("out.pmesh"), "-o", path(out), "--error",
-                      levels[level]["max_error"].dump()});
+        vitrine_json({"decode", path("out.pmesh"), "-o", path(out), "--unit", "m", "--up", "y",
+                      "--error", levels[level]["max_error"].dump()});
         const TriangleMesh mesh = read_as(read(out), *format_of_extension(extension));
         EXPECT_EQ(mesh.faces.size(), levels[level]["faces"]);
         const double found = farthest(mesh, original);
@@ -44,6 +47,63 @@ TEST_F(VitrineCommand, TheErrorOfTheTableBoundsEveryExportOfEveryLevel) {
       }
     }
   }
+}
+
+TEST_F(VitrineCommand, AnExportHasTheUnitAndTheAxisOfItsFormatOrOfTheFlags) {
+  const std::string in = write("in.ply", bumpy_ply(200));
+  vitrine_json({"build", in, "-o", path("out.pmesh"), "--unit", "cm"});
+  const auto decoded = [&](const std::string& out, std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"decode", path("out.pmesh"), "-o", path(out)});
+    vitrine_json(flags);
+    return bounds_of(read_as(read(out), *format_of_extension(out.substr(4))).positions);
+  };
+  const Bounds box = decoded("out.ply", {}), stl = decoded("out.stl", {});
+  EXPECT_NEAR(stl.high.z, box.high.y * 10, 1e-3);
+  EXPECT_NEAR(decoded("out.stl", {"--up", "y", "--unit", "cm"}).high.y, box.high.y, 1e-4);
+  EXPECT_NEAR(decoded("out.obj", {"--up", "z", "--unit", "m"}).high.z, box.high.y / 100, 1e-4);
+  EXPECT_THAT(read("out.obj"), ::testing::HasSubstr("# unit m\n# up z\n"));
+  for (const std::string unit : {"mm", "furlong"})
+    expect_fault(vitrine({"decode", path("out.pmesh"), "-o", path("out.glb"), "--unit", unit}), 2);
+  expect_fault(vitrine({"decode", path("out.pmesh"), "-o", path("out.wrl"), "--up", "z"}), 2);
+}
+
+// At each level, a compressed file has the same surface as a plain one, within half a cell of the
+// level's lattice along each axis.
+TEST_F(VitrineCommand, ACompressedGlbIsWithinTheLatticeOfItsLevel) {
+  const std::string in = write("in.ply", bumpy_ply(2'000));
+  vitrine_json({"build", in, "-o", path("out.pmesh"), "--unit", "m"});
+  const json info = vitrine_json({"info", path("out.pmesh")});
+  const auto levels = static_cast<int>(info["levels"].size());
+  for (int level = 0; level < levels; ++level) {
+    const std::string number = std::to_string(level);
+    vitrine_json({"decode", path("out.pmesh"), "-o", path("plain.glb"), "--level", number});
+    const TriangleMesh plain = read_as(read("plain.glb"), MeshFormat::kGlb);
+    for (const std::string name : {"meshopt", "draco"}) {
+      vitrine_json({"decode", path("out.pmesh"), "-o", path("small.glb"), "--level", number,
+                    "--compression", name});
+      EXPECT_LT(read("small.glb").size(), read("plain.glb").size()) << name << number;
+      const TriangleMesh small = read_as(read("small.glb"), MeshFormat::kGlb);
+      EXPECT_EQ(small.faces.size(), plain.faces.size());
+      const Bounds box = bounds_of(plain.positions);
+      const double most = box.longest_side() * (level + 1 == levels ? 1e-6 : 0.03);
+      EXPECT_LT(farthest(small, plain), most) << name << number;
+    }
+  }
+  expect_fault(
+      vitrine({"decode", path("out.pmesh"), "-o", path("a.ply"), "--compression", "draco"}), 2);
+}
+
+TEST_F(VitrineCommand, AnUnknownUnitIsNotedIfTheFormatHasOne) {
+  const std::string file = model(200);
+  for (const std::string format : {"glb", "stl", "wrl"}) {
+    const ProgramResult noted = vitrine({"decode", file, "-o", path("out." + format)});
+    expect_fault(noted, 0);  // the note has the same form as an error message
+    EXPECT_THAT(noted.errors, ::testing::HasSubstr("the unit of the model is unknown"));
+  }
+  vitrine_json({"decode", file, "-o", path("out.ply")});
+  const ProgramResult refused = vitrine({"decode", file, "-o", path("out.ply"), "--unit", "mm"});
+  expect_fault(refused, 1);
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("cannot be written in mm"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds of models with many regions. Also tests the progress and the files of a build that is
-// stopped.
+// Tests builds of models with many regions. Also tests the progress and the files of a build that
+// is stopped.
 #include <gmock/gmock.h>
 
 #include "support/on_terminal.h"
@@ -23,8 +23,9 @@ TEST_F(VitrineCommand, AModelWithRegionsIsVerifiedInSeveralOrders) {
 
 TEST_F(VitrineCommand, TheProgressBarIsRedrawnWithoutNewReports) {
   const std::string in = write("in.ply", bumpy_ply(130'000));
-  OnTerminal build({kVitrine, "build", in, "-o", path("out.pmesh")});
-  // Stops the sandboxed child in its first stage, which is long, so that it reports no progress.
+  OnTerminal build({kVitrine, "build", in, "--force", "-o", path("out.pmesh")});
+  // Suspends the sandboxed child in its first stage, which is long. The child then sends no more
+  // reports.
   build.wait_for(" % read");
   build.signal_child(SIGSTOP);
   build.wait_for(" left", 3);
@@ -35,7 +36,7 @@ TEST_F(VitrineCommand, TheProgressBarIsRedrawnWithoutNewReports) {
 TEST_F(VitrineCommand, AnInterruptedBuildLeavesNothingAndCanBeStartedAgain) {
   const std::string in = write("in.ply", bumpy_ply(130'000));
   for (const int number : {SIGINT, SIGTERM, SIGKILL}) {
-    OnTerminal build({kVitrine, "build", in, "-o", path("out.pmesh")});
+    OnTerminal build({kVitrine, "build", in, "--force", "-o", path("out.pmesh")});
     build.wait_for(" % simplify");
     build.signal(number);
     const int status = build.finish();
@@ -49,7 +50,7 @@ TEST_F(VitrineCommand, AnInterruptedBuildLeavesNothingAndCanBeStartedAgain) {
 
 TEST_F(VitrineCommand, AnInterruptedBuildLeavesAnOlderOutputAsItWas) {
   const std::string in = write("in.ply", bumpy_ply(130'000)), out = write("out.pmesh", "precious");
-  OnTerminal build({kVitrine, "build", in, "-o", out});
+  OnTerminal build({kVitrine, "build", in, "--force", "-o", out});
   build.wait_for(" % encode");
   build.signal(SIGTERM);
   EXPECT_TRUE(WIFSIGNALED(build.finish()));

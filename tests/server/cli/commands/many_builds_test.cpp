@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that run a command for many models or options.
+// Tests commands with many models and options.
 #include <set>
 
 #include "support/product_names.h"

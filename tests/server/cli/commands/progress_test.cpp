@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The progress that a build shows on a terminal.
+// Tests the progress that a build shows on a terminal.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST(TimeLeft, IsEmptyAtTheStartAndAtTheEnd) {
 
 TEST_F(VitrineCommand, ATerminalShowsProgressAndTheTimeLeft) {
   const std::string in = write("in.ply", bumpy_ply(3'000));
-  OnTerminal build({kVitrine, "build", in, "-o", path("out.pmesh")});
+  OnTerminal build({kVitrine, "build", in, "--force", "-o", path("out.pmesh")});
   EXPECT_EQ(build.finish(), 0);
   EXPECT_THAT(build.seen(), HasSubstr(" s left"));
   EXPECT_THAT(build.seen(), HasSubstr(" % simplify"));
@@ -56,7 +56,8 @@ TEST_F(VitrineCommand, ATerminalShowsProgressAndTheTimeLeft) {
 
 TEST_F(VitrineCommand, TheProgressBarOfABuildWithAReportNeverGoesBack) {
   const std::string in = write("in.ply", bumpy_ply(3'000));
-  OnTerminal build({kVitrine, "build", in, "-o", path("out.pmesh"), "--report", path("out.html")});
+  OnTerminal build(
+      {kVitrine, "build", in, "--force", "-o", path("out.pmesh"), "--report", path("out.html")});
   EXPECT_EQ(build.finish(), 0);
   EXPECT_THAT(build.seen(), HasSubstr(" % report"));
   const std::vector<int> shares = shares_in(build.seen());

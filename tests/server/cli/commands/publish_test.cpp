@@ -7,6 +7,7 @@
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
 #include "server/store/uploads.h"
+#include "support/packages/write_package.h"
 #include "support/process/daemon.h"
 #include "support/process/http_client.h"
 #include "support/product_names.h"
@@ -31,6 +32,22 @@ TEST_F(VitrineCommand, AnOpenInstallationServesAModelPublishedBesideIt) {
   ASSERT_TRUE(model);
   EXPECT_EQ(model->record().title, "Bust of a girl");
   EXPECT_EQ(model->record().faces, 1'922u);
+}
+
+TEST_F(VitrineCommand, ANameInAnOldEncodingBecomesATitle) {
+  const std::string in = write("B\xfcste.ply", bumpy_ply(500)), data = empty_folder("data");
+  const auto id =
+      ModelId::parse(vitrine_json({"publish", in, "--data", data})["id"].get<std::string>());
+  const auto installation = open_installation({.folder = data}).value();
+  EXPECT_EQ(installation.catalogue->find(id.value()).value()->title, "B\xc3\xbcste");
+}
+
+TEST_F(VitrineCommand, ATitleThatIsNotUtf8IsRefusedBeforeTheServerIsAsked) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const ProgramResult result =
+      vitrine({"publish", in, "--server", "http://127.0.0.1:1", "--token", "t", "--title", "\xff"});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("the title is not one line of UTF-8"));
 }
 
 TEST_F(VitrineCommand, APmeshIsPublishedAsItIs) {
@@ -75,7 +92,7 @@ TEST_F(VitrineCommand, PublishingBesideTheDaemonKeepsToItsQuota) {
 }
 
 TEST_F(VitrineCommand, AnUnreadableDataFolderIsNamed) {
-  // the name is too long for any file system
+  // The name is too long for any file system.
   const std::string folder = path(std::string(300, 'd'));
   const ProgramResult result =
       vitrine({"publish", write("in.ply", bumpy_ply(500)), "--data", folder});
@@ -161,6 +178,83 @@ TEST_F(AtServer, AMeshIsPublicOnReturn) {
   const std::string file =
       http_get(daemon_.port(), "/api/v1/models/" + other.value("id", "") + "/file.pmesh").body;
   EXPECT_EQ(file, read("model.pmesh"));
+}
+
+TEST_F(AtServer, TheTokenMayComeFromAFileOrTheEnvironmentAndMetadataFromFlags) {
+  const std::string in = write("in.ply", bumpy_ply(500)), by = token("operator");
+  const std::string file = write("token.txt", by + "\n");
+  const nlohmann::json first =
+      vitrine_json({"publish", in, "--server", url_, "--token-file", file, "--creator", "Anna",
+                    "--rights", "The museum", "--licence", "CC0-1.0"});
+  const auto shown = nlohmann::json::parse(
+      http_get(daemon_.port(), "/api/v1/models/" + first.value("id", "")).body);
+  EXPECT_EQ(shown["creator"], "Anna");
+  EXPECT_EQ(shown["rights"], "The museum");
+  EXPECT_EQ(shown["licence"], "CC0-1.0");
+  const ProgramResult second =
+      run_program({"env", "VITRINE_TOKEN=" + by, kVitrine, "publish", in, "--server", url_});
+  EXPECT_EQ(second.exit_code, 0) << second.errors;
+  expect_fault(vitrine({"publish", in, "--server", url_, "--token", by, "--token-file", file}), 2);
+  expect_fault(vitrine({"publish", in, "--server", url_, "--token-file", write("two", "a b")}), 2);
+  expect_fault(vitrine({"publish", in, "--server", url_, "--token-file", path("absent")}), 1);
+}
+
+TEST_F(VitrineCommand, MetadataFromFlagsIsStoredInAFolderToo) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const nlohmann::json report = vitrine_json(
+      {"publish", in, "--data", empty_folder("data"), "--creator", "Anna", "--licence", "CC0-1.0"});
+  const auto installation = open_installation({.folder = path("data")}).value();
+  PublishedModels models(*installation.store, *installation.catalogue);
+  const auto found = models.find(*ModelId::parse(report["id"].get<std::string>())).value();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->record().creator, "Anna");
+  EXPECT_EQ(found->record().licence, "CC0-1.0");
+}
+
+TEST_F(AtServer, WhatTheBuildChangedIsPrintedAndKeptInTheJob) {
+  const std::string text = bumpy_ply(500),
+                    last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+  const std::string faces = "element face ";
+  std::string twice = text + last;
+  const std::size_t at = twice.find(faces) + faces.size();
+  const std::size_t end = twice.find('\n', at);
+  twice.replace(at, end - at, std::to_string(std::stoi(twice.substr(at, end - at)) + 1));
+  const std::string in = write("in.ply", twice), by = token("operator");
+  const std::string repair = "1 duplicate face dropped";
+  const ProgramResult result = vitrine(at_server({"publish", in}, by));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.errors, HasSubstr("in.ply: " + repair));
+  const std::string bearer = "Authorization: Bearer " + by + "\r\n";
+  const auto jobs = nlohmann::json::parse(http_get(daemon_.port(), "/api/v1/jobs", bearer).body);
+  ASSERT_EQ(jobs["jobs"][0]["repairs"].size(), 1u) << jobs;
+  EXPECT_THAT(jobs["jobs"][0]["repairs"][0].get<std::string>(), HasSubstr(repair));
+  EXPECT_THAT(vitrine({"publish", in, "--data", empty_folder("other")}).errors,
+              HasSubstr("in.ply: " + repair));
+}
+
+TEST_F(AtServer, APackageIsUploadedAndUnpackedByTheServer) {
+  const std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+  const FilesToPack files{{"statue/a.obj", obj}, {"statue/a.mtl", "newmtl a\nKd 1 0 0\n"}};
+  const std::string in = write("Statue.tar.gz", gzip_of(tar_of(files))), by = token("operator");
+  write("a.mtl", "newmtl a\nmap_Kd missing.png\n");  // is not that of the package
+  const ProgramResult result = vitrine(at_server({"publish", in}, by));
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("material colours baked into vertex colours"));
+  const auto shown = nlohmann::json::parse(http_get(daemon_.port(), "/api/v1/models").body);
+  EXPECT_EQ(shown["models"][0]["title"], "Statue");
+  EXPECT_EQ(shown["models"][0]["faces"], 1);
+}
+
+TEST_F(VitrineCommand, APackageIsBuiltVerifiedAndMeasured) {
+  const std::string in = write("in.zip", zip_of({{"a/bust.ply", bumpy_ply(500)}}));
+  const std::string out = path("out.pmesh");
+  EXPECT_EQ(vitrine({"build", in, "-o", out}).exit_code, 0);
+  EXPECT_EQ(vitrine_json({"verify", out, "--against", in})["lossless"], true);
+  EXPECT_EQ(vitrine({"measure", in, out}).exit_code, 0);
+  const std::string two = write("two.zip", zip_of({{"a.ply", bumpy_ply(500)}, {"b.ply", "ply"}}));
+  const ProgramResult refused = vitrine({"build", two, "-o", out});
+  expect_fault(refused, 1);
+  EXPECT_THAT(refused.errors, HasSubstr("two.zip: the package has 2 models, 'a.ply', 'b.ply'"));
 }
 
 TEST_F(AtServer, ARefusalIsReportedInTheServersWords) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page that `vitrine build --report` writes.
+// Tests the page that `vitrine build --report` writes.
 #include <gmock/gmock.h>
 
 #include "support/product_names.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `vitrine reprocess` with a scan that a simulated scanner has made.
+// Tests `vitrine reprocess` with a scan that a simulated scanner has made.
 #include <gmock/gmock.h>
 
 #include "acquisition/calibration/calibration_store.h"
@@ -92,6 +92,18 @@ TEST_F(ReprocessCommand, AnIncompleteScanIsReportedAsSuch) {
   EXPECT_EQ(part.exit_code, 0) << part.errors;
   EXPECT_THAT(part.errors, HasSubstr("of 12: the mesh contains only these steps"));
   EXPECT_THAT(part.output, HasSubstr("points in 5 of 12 steps"));
+}
+
+TEST_F(ReprocessCommand, AMeshThatExistsIsNotReplacedWithoutForce) {
+  scan(false);
+  write("out.ply", "mine");
+  const ProgramResult refused = vitrine(words("out.ply"));
+  expect_fault(refused, 1);
+  EXPECT_THAT(refused.errors, HasSubstr("out.ply exists; choose another name, or replace it with "
+                                        "--force"));
+  EXPECT_EQ(read("out.ply"), "mine");
+  vitrine_json(words("out.ply", {"--force"}));
+  EXPECT_THAT(read("out.ply"), testing::StartsWith("ply\n"));
 }
 
 TEST_F(ReprocessCommand, WrongUsageIsReported) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A complete scan over the real protocols. vitrine-rig simulates the scanner and the target.
+// Tests a complete scan over the real protocols. vitrine-rig simulates the scanner and the target.
 // vitrine calibrates the scanner and scans an object. The result is compared with the true surface.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -121,7 +121,7 @@ TEST_F(ScanAtRig, UnpluggedDevicesAndMissingPacketsChangeNothing) {
   const std::string expected = undisturbed();
   for (const std::string fault :
        {"camera-unplug@20", "usb-unplug@30", "lost-packets", "missed-trigger@25"}) {
-    const ProgramResult result = at_rig(scan_to("out.ply"), {"--fault", fault});
+    const ProgramResult result = at_rig(scan_to("out.ply", "--force"), {"--fault", fault});
     EXPECT_EQ(result.exit_code, 0) << fault << ": " << result.errors;
     EXPECT_TRUE(read("out.ply") == expected) << fault;
   }

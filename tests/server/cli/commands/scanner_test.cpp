@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of `calibrate` and `scan` without a scanner. tests/acquisition/rig runs these commands on
-// the simulated scanner.
+// Tests the errors of `calibrate` and `scan` without a scanner. tests/acquisition/rig runs these
+// commands on the simulated scanner.
 #include <gmock/gmock.h>
 
 #include "support/product_names.h"
@@ -87,7 +87,7 @@ TEST_F(ScannerCommands, AFaultOfMeasuredPointsNamesFileAndLine) {
 TEST_F(ScannerCommands, AScannerThatIsNotThereLeavesNothingBehind) {
   const std::string rig = config();
   ProgramResult scan = vitrine({"scan", "--config", rig, "-o", path("out.ply")});
-  // While the command retries, a note names the missing device.
+  // Removes the notes that name the missing device. The command prints them while it retries.
   scan.errors = std::regex_replace(scan.errors, std::regex("vitrine: note: [^\n]*\n"), "");
   expect_fault(scan, 1);
   expect_fault(vitrine({"calibrate", "--config", rig}), 1);
@@ -107,6 +107,18 @@ TEST_F(ScannerCommands, ThereIsNothingToResume) {
       vitrine({"scan", "--config", config(), "-o", path("out.ply"), "--resume"});
   expect_fault(result, 1);
   EXPECT_THAT(result.errors, HasSubstr("there is no scan in"));
+}
+
+TEST_F(ScannerCommands, AMeshThatExistsIsNotReplacedWithoutForce) {
+  const std::string out = write("out.ply", "mine");
+  std::vector<std::string> words = {"scan", "--config", config(), "-o", out, "--resume"};
+  const ProgramResult refused = vitrine(words);
+  expect_fault(refused, 1);
+  EXPECT_THAT(refused.errors, HasSubstr("out.ply exists; choose another name, or replace it with "
+                                        "--force"));
+  words.emplace_back("--force");
+  EXPECT_THAT(vitrine(words).errors, HasSubstr("there is no scan in"));
+  EXPECT_EQ(read("out.ply"), "mine");
 }
 
 TEST_F(ScannerCommands, OutputsMustBeWritable) {

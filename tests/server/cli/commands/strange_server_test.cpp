@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands that connect to a server that is not Vitrine.
+// Tests commands that connect to a server that is not Vitrine.
 #include <sys/socket.h>
 
 #include <thread>

@@ -21,7 +21,7 @@ TEST_F(VitrineCommand, ATokenIsCreatedOfflineAndShownOnce) {
   std::filesystem::create_directory(path("data"));
   const ProgramResult result =
       vitrine({"token", "create", "--role", "admin", "--data", path("data")});
-  expect_fault(result, 0);  // a note has the same form as an error
+  expect_fault(result, 0);  // the note has the same form as an error message
   EXPECT_THAT(result.errors, HasSubstr("is shown only now"));
   ASSERT_EQ(result.output.size(), 48u);
   const auto caller = find(path("data"), result.output.substr(0, 47));
@@ -49,6 +49,57 @@ TEST_F(VitrineCommand, ARevokedTokenIsNotAccepted) {
   EXPECT_EQ(vitrine({"token", "revoke", "--id", id, "--data", path("data")}).output, id + "\n");
   EXPECT_FALSE(find(path("data"), token["token"].get<std::string>()));
   expect_fault(vitrine({"token", "revoke", "--id", id, "--data", path("data")}), 1);
+}
+
+TEST_F(VitrineCommand, EveryChangeOfADataFolderIsAudited) {
+  const std::string data = empty_folder("data"), in = write("in.ply", bumpy_ply(500));
+  const auto id_of = [](const nlohmann::json& made) { return made["id"].get<std::string>(); };
+  const std::string token =
+      id_of(vitrine_json({"token", "create", "--role", "admin", "--data", data}));
+  vitrine({"token", "revoke", "--id", token, "--data", data});
+  vitrine({"token", "revoke", "--id", token, "--data", data});
+  const std::string model = id_of(vitrine_json({"publish", in, "--data", data}));
+  EXPECT_EQ(vitrine({"migrate", "--from", data, "--to", empty_folder("moved")}).exit_code, 0);
+  vitrine_json({"backup", "--data", data, "-o", path("all.tar")});
+  vitrine_json({"restore", path("all.tar"), "--data", path("restored")});
+  vitrine_json({"repair", "--data", path("restored"), "--backup", path("all.tar")});
+  vitrine_json({"repair", "--data", path("restored"), "--from", data});
+
+  const auto line = [](const std::string& action, const std::string& target, const char* outcome) {
+    return " action=" + action + " target=" + target + " outcome=" + outcome + "\n";
+  };
+  const std::string trail = read("data/audit.log");
+  EXPECT_EQ(std::count(trail.begin(), trail.end(), '\n'), 4) << trail;
+  EXPECT_THAT(trail, HasSubstr(" event=audit user="));
+  EXPECT_THAT(trail, HasSubstr(line("\"token create admin\"", token, "done")));
+  EXPECT_THAT(trail, HasSubstr(line("\"token revoke\"", token, "done")));
+  EXPECT_THAT(trail, HasSubstr(line("\"token revoke\"", token, "failed")));
+  EXPECT_THAT(trail, HasSubstr(line("publish", model, "done")));
+  EXPECT_THAT(read("moved/audit.log"), HasSubstr(line("migrate", data, "done")));
+  const std::string restored = read("restored/audit.log");
+  EXPECT_THAT(restored, HasSubstr(line("restore", path("all.tar"), "done")));
+  EXPECT_THAT(restored, HasSubstr(line("repair", path("all.tar"), "done")));
+  EXPECT_THAT(restored, HasSubstr(line("repair", data, "done")));
+}
+
+TEST_F(VitrineCommand, AChangeThatCannotBeAuditedIsNotMade) {
+  const std::string data = empty_folder("data");
+  vitrine_json({"token", "create", "--role", "admin", "--data", data});
+  std::filesystem::remove(data + "/audit.log");
+  std::filesystem::create_directory(data + "/audit.log");
+  const ProgramResult refused = vitrine({"token", "create", "--role", "admin", "--data", data});
+  expect_fault(refused, 1);
+  EXPECT_THAT(refused.errors, HasSubstr("cannot record the change in " + data + "/audit.log"));
+  EXPECT_EQ(open_installation({.folder = data})->catalogue->tokens()->size(), 1u);
+}
+
+TEST_F(VitrineCommand, AnAuditLogThatIsALinkIsNotFollowed) {
+  const std::string data = empty_folder("data"), other = write("other", "untouched");
+  vitrine_json({"token", "create", "--role", "admin", "--data", data});
+  std::filesystem::remove(data + "/audit.log");
+  std::filesystem::create_symlink(other, data + "/audit.log");
+  expect_fault(vitrine({"token", "create", "--role", "admin", "--data", data}), 1);
+  EXPECT_EQ(read("other"), "untouched");
 }
 
 TEST_F(VitrineCommand, ATokenForAMistypedFolderMakesNoInstallation) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wrong usage. Every error must be one line with the cause and the next step, have the right exit
-// code, and leave no half-written file.
+// Tests wrong usage. Every error must be one line with the cause and the next step, have the right
+// exit code, and leave no half-written file.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -45,6 +45,30 @@ TEST_F(VitrineCommand, WrongUsageIsExitCode2) {
 TEST_F(VitrineCommand, AMistypedCommandOrFlagIsAnsweredWithTheRightOne) {
   EXPECT_THAT(vitrine({"verfy", "x"}).errors, HasSubstr("did you mean verify?"));
   EXPECT_THAT(vitrine({"info", "x", "--jsno"}).errors, HasSubstr("did you mean --json?"));
+}
+
+TEST_F(VitrineCommand, HelpOfACommandIsTheSameInBothForms) {
+  const ProgramResult help = vitrine({"help", "build"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_EQ(help.output, vitrine({"build", "--help"}).output);
+  EXPECT_THAT(help.output, HasSubstr("\nExamples:\n  vitrine build "));
+  EXPECT_THAT(vitrine({"help", "bild"}).errors, HasSubstr("did you mean build?"));
+  EXPECT_EQ(vitrine({"-V"}).output, vitrine({"--version"}).output);
+}
+
+TEST_F(VitrineCommand, BashCompletesCommandsFlagsAndChoices) {
+  const auto completed = [](const std::string& words, int at) {
+    const std::string script = "source <(\"$0\" completion bash); COMP_WORDS=(" + words +
+                               "); COMP_CWORD=" + std::to_string(at) +
+                               "; _vitrine; echo ${COMPREPLY[*]}";
+    return run_program({"bash", "-c", script, kVitrine}).output;
+  };
+  EXPECT_EQ(completed("vitrine fu", 1), "fuse\n");
+  EXPECT_EQ(completed("vitrine build in.ply --pl", 3), "--placement\n");
+  EXPECT_EQ(completed("vitrine build --placement ''", 3), "midpoint pyramid\n");
+  EXPECT_EQ(completed("vitrine token cr", 2), "create\n");
+  EXPECT_EQ(completed("vitrine build -o ''", 3), "\n");
+  expect_fault(vitrine({"completion", "dos"}), 2);
 }
 
 TEST_F(VitrineCommand, AMissingFileIsNamed) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The doctor's findings about a data folder.
+// Tests the doctor's findings about a data folder.
 #include "server/cli/doctor/check_data.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Announces to screen readers from where the visitor sees the model, once the camera is at rest.
-// Also announces how far the model has been refined, at milestones only.
+// Tells screen readers from which side the visitor sees the model, once the camera is at rest. Also
+// announces how far the model has been refined, but only at a few milestones.
 import type { Bench, Tool } from "./bench.ts";
 import { heightOf, sideOf } from "./view.ts";
 
@@ -8,8 +8,8 @@ import { heightOf, sideOf } from "./view.ts";
 const kRest = 600;
 
 /**
- * Whether the number of downloaded bytes passes half of `total`, without reaching `total`, when it
- * changes from `before` to `now`.
+ * Returns whether the number of downloaded bytes, changing from `before` to `now`, passes half of
+ * `total` without reaching `total`.
  */
 export function passesHalf(before: number, now: number, total: number): boolean {
   return before < total / 2 && now >= total / 2 && now < total;
@@ -18,7 +18,8 @@ export function passesHalf(before: number, now: number, total: number): boolean 
 export class Announcer implements Tool {
   #seen = "";
   #bytes = 0;
-  // Whether the next `load` event is announced: the first one, and each that the visitor has requested.
+  // Whether the next `load` event is announced. The first one is announced, and so is each one that
+  // follows a request of the visitor.
   #hasAsked = false;
   #resting: ReturnType<typeof setTimeout> | undefined;
 
@@ -40,7 +41,8 @@ export class Announcer implements Tool {
     const ask = ({ target }: Event) => (this.#hasAsked ||= (target as Element).closest(".choice, .detail") !== null);
     for (const sign of ["click", "input"]) this.bench.view.parentElement?.addEventListener(sign, ask, options);
     until.addEventListener("abort", () => clearTimeout(this.#resting));
-    if (this.bench.triangles === info.levels.at(-1)?.faces) this.#reached(); // full detail was reached before the tools were loaded
+    // Announces full detail if it was already reached before the tools were loaded.
+    if (this.bench.triangles === info.levels.at(-1)?.faces) this.#reached();
     else this.bench.say(texts.firstShape(this.bench.triangles));
   }
 

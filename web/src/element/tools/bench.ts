@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interfaces between the viewer and its tools.
+// The interfaces between the viewer and the visitor's tools.
 import type { Stage } from "../stage.ts";
 import type { ViewerTexts } from "../../texts/index.ts";
 import type { OrbitController } from "./orbit.ts";
 import type { Overlay } from "./overlay.ts";
 
-/** Restores the view and the level of detail that the page's attributes define. */
-export interface ViewerDefaults {
+/** The functions of the element that the tools use. */
+export interface ViewerControls {
+  /** Restores the view that the page's attributes define. */
   frame(): void;
+  /** Restores the level of detail that the page's attributes define. */
   sharpen(): void;
+  /** Refines to a number of triangles, as if the visitor had chosen it. */
+  choose(triangles: number): void;
+  /** Whether the visitor has chosen the level of detail. */
+  hasChosen(): boolean;
 }
 
 export interface Bench {
@@ -18,9 +24,9 @@ export interface Bench {
   readonly texts: ViewerTexts;
   readonly overlay: Overlay;
   readonly orbit: OrbitController;
-  /** The stage of a model whose base mesh is shown; available between attach() and detach(). */
+  /** The stage of a model whose base mesh is shown. Available only between attach() and detach(). */
   readonly stage: Stage;
-  readonly page: ViewerDefaults;
+  readonly page: ViewerControls;
   /** Number of triangles shown now. */
   readonly triangles: number;
   /** Announces a text to screen readers. */
@@ -28,8 +34,10 @@ export interface Bench {
 }
 
 export interface Tool {
-  /** Called when a model is on the stage. Listeners and timers must end when `until` is aborted. */
+  /** Called when a model is on the stage. The tool must end its listeners and timers when `until` is aborted. */
   attach?(until: AbortSignal): void;
   /** Restores the initial settings. */
   reset?(): void;
+  /** The setting that links keep, as text. Empty if it is the initial one. Malformed texts are ignored. */
+  setting?: string;
 }

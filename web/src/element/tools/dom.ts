@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 type AttributeValues = Record<string, string | boolean | EventListener>;
 
-/** Creates an element. Functions become listeners ("onclick"), booleans set or omit an attribute, strings are attribute values. */
+/**
+ * Creates an element. In the attributes, functions become listeners ("onclick"), booleans set or
+ * omit the attribute, and strings are values.
+ */
 export function make<K extends keyof HTMLElementTagNameMap>(
   tag: K, attributes: AttributeValues = {}, ...content: (Node | string)[]
 ): HTMLElementTagNameMap[K] {
@@ -15,7 +18,14 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Creates a radio group called `name`; the first value is selected initially. */
+/** Lets the browser save a file. */
+export function save(content: Blob, name: string): void {
+  const address = URL.createObjectURL(content);
+  make("a", { href: address, download: name }).click();
+  URL.revokeObjectURL(address);
+}
+
+/** Creates a radio group called `name`. Its first value is selected initially. */
 export function choices<T extends string>(
   name: string, label: string, labels: Record<T, string>, chosen: (value: T) => void,
 ): HTMLElement {

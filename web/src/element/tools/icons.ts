@@ -15,7 +15,7 @@ export type Icon = keyof typeof kPaths;
 
 const kSvg = "http://www.w3.org/2000/svg";
 
-/** Creates an icon. It is hidden from screen readers, because the button around it has a label. */
+/** Creates an icon. Screen readers ignore it, because the button around it has a label. */
 export function icon(name: Icon): SVGSVGElement {
   const svg = document.createElementNS(kSvg, "svg");
   svg.setAttribute("viewBox", "0 0 24 24");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resets the viewer `idle-reset` seconds after the last input. Kiosks use this for the next visitor.
+// Resets the viewer after `idle-reset` seconds without input. In a kiosk, this prepares the viewer
+// for the next visitor.
 import type { Bench, Tool } from "./bench.ts";
 
 const kSigns = ["pointerdown", "pointermove", "wheel", "keydown", "focusin"] as const;

@@ -2,10 +2,10 @@
 // Camera control by keyboard.
 import type { Bench, Tool } from "./bench.ts";
 
-const kTurn = 10; // degrees
+const kTurn = 10; // degrees per key press
 const kZoom = 1.15;
 
-/** The effect of each key: degrees to the right, degrees up, factor for the distance. */
+/** The effect of each key: degrees to the right, degrees up, and the factor for the distance. */
 const kMoves: Record<string, [number, number, number]> = {
   ArrowLeft: [-kTurn, 0, 1], ArrowRight: [kTurn, 0, 1], ArrowUp: [0, kTurn, 1], ArrowDown: [0, -kTurn, 1],
   "+": [0, 0, 1 / kZoom], "=": [0, 0, 1 / kZoom], "-": [0, 0, kZoom],

@@ -1,31 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lighting presets. Raking light comes from the side, nearly parallel to the surface, so that shading
-// reveals every tool mark; the visitor can turn its direction.
-import { HemisphereLight } from "three";
+// Lighting presets. The museum's light is the default: a room for textured models, lamp and sky for others. Raking light comes from the side, nearly parallel to the surface, so that
+// shading reveals every tool mark. The visitor can turn the direction of raking light.
+import type { Lighting } from "../lights.ts";
 import type { Bench, Tool } from "./bench.ts";
 import { choices, make } from "./dom.ts";
 
-interface Lighting {
-  /** Direction from the object to the lamp: right, up, towards the visitor. */
-  from: [number, number, number];
-  lamp: number;
-  sky: number;
-}
-
-export type Preset = "studio" | "soft" | "front" | "raking";
+export type Preset = "museum" | "studio" | "raking" | "relief";
 
 /**
- * Component of the raking light's direction towards the visitor. The component in the plane of the screen has length
- * 1.
+ * Component of the raking light's direction towards the visitor, if the component in the plane of
+ * the screen has length 1.
  */
 const kLift = 0.14;
-const kFirstAngle = 315; // degrees clockwise from the top: light from the upper left, the convention for reliefs
+const kFirstAngle = 315; // degrees clockwise from the top: upper left, as is usual for reliefs
 
-export const kLightings: Record<Preset, Lighting> = {
-  studio: { from: [-0.6, 0.9, 0.6], lamp: 2.2, sky: 1.1 },
-  soft: { from: [-0.3, 0.9, 0.8], lamp: 0.7, sky: 2.4 },
-  front: { from: [0, 0, 1], lamp: 2.4, sky: 0.7 },
-  raking: { from: rakingFrom(kFirstAngle), lamp: 4.2, sky: 0.16 },
+const kLamp: [number, number, number] = [-0.6, 0.9, 0.6];
+
+export const kLightings: Record<Exclude<Preset, "museum">, Lighting> = {
+  studio: { from: kLamp, relief: { lamp: 2.2, sky: 1.1 }, inRoom: { lamp: 0, sky: 0, room: 1 } },
+  raking: { from: rakingFrom(kFirstAngle), relief: { lamp: 4.2, sky: 0.16 }, inRoom: { lamp: 3.6, sky: 0, room: 0.1 } },
+  relief: { from: kLamp, relief: { lamp: 2.2, sky: 1.1 }, inRoom: { lamp: 2.2, sky: 1.1, room: 0 } },
 };
 
 /** Returns the direction of raking light that comes from `angle` degrees clockwise from the top. */
@@ -34,15 +28,20 @@ export function rakingFrom(angle: number): [number, number, number] {
   return [Math.sin(radians), Math.cos(radians), kLift];
 }
 
+/** Returns an angle in degrees as a whole number from 0 to 359. */
+function wholeDegrees(angle: number): number {
+  return ((Math.round(angle) % 360) + 360) % 360;
+}
+
 export class Light implements Tool {
   readonly content: HTMLElement;
   readonly #dial: HTMLElement;
-  #preset: Preset = "studio";
+  #preset: Preset = "museum";
   #angle = kFirstAngle;
 
   constructor(private readonly bench: Bench) {
     const { texts } = bench;
-    const { studio, soft, front, raking } = texts;
+    const { museum, studio, raking, relief } = texts;
     this.#dial = make("div", {
       class: "dial", role: "slider", tabindex: "0", hidden: true,
       "aria-label": texts.rakingFrom, "aria-valuemin": "0", "aria-valuemax": "359",
@@ -50,18 +49,39 @@ export class Light implements Tool {
     this.#dial.addEventListener("keydown", (event) => this.#press(event));
     this.#dial.addEventListener("pointerdown", (event) => this.#hold(event));
     this.#dial.addEventListener("pointermove", (event) => this.#dial.hasPointerCapture(event.pointerId) && this.#point(event));
-    const presets = choices("light", texts.light, { studio, soft, front, raking }, (preset) => this.#choose(preset));
+    const presets = choices("light", texts.light, { museum, studio, raking, relief }, (preset) => this.#choose(preset));
     this.content = make("div", {}, presets, this.#dial);
   }
 
   attach(): void {
+    // Lamp and sky are the museum's light for a model without textures.
+    (this.#radio("relief").parentElement as HTMLElement).hidden = !this.bench.stage.mesh.info.texture;
     this.#shine();
   }
 
   reset(): void {
-    (this.content.querySelector("[value=studio]") as HTMLInputElement).checked = true;
     this.#angle = kFirstAngle;
-    this.#choose("studio");
+    this.#select("museum");
+  }
+
+  get setting(): string {
+    if (this.#preset === "museum") return "";
+    return this.#preset === "raking" ? `raking,${this.#angle}` : this.#preset;
+  }
+  set setting(text: string) {
+    const [preset = "", angle] = text.split(",");
+    if (!Object.hasOwn(kLightings, preset)) return;
+    if (Number.isFinite(Number(angle))) this.#angle = wholeDegrees(Number(angle));
+    this.#select(preset as Preset);
+  }
+
+  #select(preset: Preset): void {
+    this.#radio(preset).checked = true;
+    this.#choose(preset);
+  }
+
+  #radio(preset: Preset): HTMLInputElement {
+    return this.content.querySelector(`[value=${preset}]`) as HTMLInputElement;
   }
 
   #choose(preset: Preset): void {
@@ -71,18 +91,27 @@ export class Light implements Tool {
   }
 
   #shine(): void {
-    const { scene, lamp } = this.bench.stage.parts, { from, lamp: power, sky } = kLightings[this.#preset];
-    lamp.position.set(...(this.#preset === "raking" ? rakingFrom(this.#angle) : from));
-    lamp.intensity = power;
-    for (const light of scene.children) if (light instanceof HemisphereLight) light.intensity = sky;
+    const { stage } = this.bench;
+    stage.parts.lights.lighting = this.#lighting;
+    // Ignores an error. Lamp and sky then light the model.
+    if (this.#preset === "studio") stage.enterRoom().catch(() => undefined);
     this.#dial.style.setProperty("--angle", `${this.#angle}deg`);
     this.#dial.setAttribute("aria-valuenow", String(this.#angle));
     this.#dial.setAttribute("aria-valuetext", this.bench.texts.degrees(this.#angle));
-    void this.bench.stage.draw();
+    void stage.draw();
+  }
+
+  /** Models without textures are in the room only in the studio. */
+  get #lighting(): Lighting | undefined {
+    const hasRoom = this.bench.stage.mesh.info.texture !== undefined;
+    if (this.#preset === "museum") return hasRoom ? undefined : kLightings.relief;
+    const lighting = kLightings[this.#preset];
+    if (this.#preset !== "raking") return lighting;
+    return { ...lighting, from: rakingFrom(this.#angle), ...(!hasRoom && { inRoom: { ...lighting.relief, room: 0 } }) };
   }
 
   #turn(angle: number): void {
-    this.#angle = ((Math.round(angle) % 360) + 360) % 360;
+    this.#angle = wholeDegrees(angle);
     this.#shine();
   }
 

@@ -1,39 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the straight distance between two points of the surface, in the model's unit.
+// Measures the model, and distances, angles, areas and profiles between points of its surface, in its unit.
 import type { Bench, Tool } from "./bench.ts";
-import { make } from "./dom.ts";
+import { choices, make } from "./dom.ts";
+import { angleAt, areaOf } from "./measures.ts";
 import type { Mark } from "./overlay.ts";
 import { pick } from "./pick.ts";
+import { ProfileSheet } from "./profile-sheet.ts";
+import { ScaleBar } from "./scale-bar.ts";
+import { Vector3 } from "three";
 
-/** Maximum pointer movement of a click, in pixels. */
+/** Maximum distance, in pixels, that the pointer may move during a click. */
 const kStill = 5;
+
+/** The numbers of points that a measure needs and takes. A further point begins a new measure. */
+const kPoints = { distance: [2, 2], angle: [3, 3], area: [3, 64], profile: [2, 2] } as const;
+type Measurement = keyof typeof kPoints;
 
 export class Measure implements Tool {
   readonly content: HTMLElement;
   readonly #hint = make("p", { class: "hint" });
   readonly #result = make("p", { class: "result" });
-  readonly #line = make("div", { class: "ruler", hidden: true });
   readonly #label = make("div", { class: "length", hidden: true });
+  readonly #size = make("p", { class: "result size" });
+  readonly #scale: ScaleBar;
+  readonly #profile: ProfileSheet;
+  #kind: Measurement = "distance";
   #points: Mark[] = [];
+  #lines: HTMLElement[] = [];
   #isActive = false;
 
   constructor(private readonly bench: Bench) {
-    const clear = make("button", { type: "button", class: "framed", onclick: () => this.reset() }, bench.texts.measureClear);
-    this.content = make("div", {}, this.#hint, this.#result, clear);
-    bench.view.append(this.#line, this.#label);
+    const { texts } = bench, clear = make("button", { type: "button", class: "framed", onclick: () => this.reset() }, texts.measureClear);
+    const kinds = choices<Measurement>("measure-what", texts.measureWhat, texts.measures, (kind) => {
+      this.#kind = kind;
+      this.reset();
+    });
+    this.#scale = new ScaleBar(bench);
+    this.#profile = new ProfileSheet(bench);
+    this.content = make("div", {}, make("p", { class: "label" }, texts.dimensions), this.#size, kinds, this.#hint, this.#result, this.#profile.content, clear);
+    bench.view.append(this.#label);
     bench.overlay.followers.add(() => this.#draw());
     this.#tell();
   }
 
-  /** Set to true while the tool's sheet is open. Only then do clicks set points. */
+  /** Set to true while the tool's sheet is open. Clicks set points only during that time. */
   set isActive(on: boolean) {
-    this.#isActive = on;
+    this.#isActive = this.#scale.isShown = on;
     this.bench.view.classList.toggle("measuring", on);
     if (on) this.bench.say(this.bench.texts.measureFirst);
   }
 
   attach(until: AbortSignal): void {
     this.reset();
+    const { geometry, info } = this.bench.stage.mesh, { x = 0, y = 0, z = 0 } = geometry.boundingBox?.getSize(new Vector3()) ?? {};
+    this.#size.textContent = this.bench.texts.extent(x, y, z, info.unit);
     const canvas = this.bench.view.querySelector("canvas") as HTMLCanvasElement;
     let down: PointerEvent | undefined;
     canvas.addEventListener("pointerdown", (event) => (down = event), { signal: until });
@@ -47,13 +67,15 @@ export class Measure implements Tool {
 
   reset(): void {
     for (const mark of this.#points.splice(0)) this.bench.overlay.remove(mark);
+    for (const line of this.#lines.splice(0)) line.remove();
+    this.#profile.hide();
     this.#tell();
   }
 
   #pick(x: number, y: number): void {
     const point = this.#isActive ? pick(this.bench.stage, x, y) : undefined;
     if (!point) return;
-    if (this.#points.length === 2) this.reset();
+    if (this.#points.length === kPoints[this.#kind][1]) this.reset();
     const mark = { element: make("div", { class: "point" }), point };
     this.#points.push(mark);
     this.bench.overlay.add(mark);
@@ -62,21 +84,39 @@ export class Measure implements Tool {
   }
 
   #tell(): void {
-    const { texts } = this.bench, [first, second] = this.#points;
-    this.#hint.textContent = first && !second ? texts.measureSecond : texts.measureFirst;
-    this.#line.hidden = this.#label.hidden = this.#result.hidden = !second;
-    if (!first || !second) return;
-    const length = first.point.distanceTo(second.point), { unit } = this.bench.stage.mesh.info;
-    this.#label.textContent = this.#result.textContent = texts.measured(length, unit);
-    this.bench.say(texts.distance(length, unit));
+    const { texts } = this.bench, [needed, most] = kPoints[this.#kind], count = this.#points.length;
+    this.#hint.textContent = count > 0 && count < most ? texts.measureNext : texts.measureFirst;
+    this.#label.hidden = this.#result.hidden = count < needed;
+    if (count < needed) return;
+    const value = this.#measured(this.#points.map(({ point }) => point));
+    this.#label.textContent = this.#result.textContent = value;
+    this.bench.say(`${texts.measures[this.#kind]}: ${value}`);
+  }
+
+  /** Returns the result as text. `points` are as many as the measure needs. */
+  #measured(points: Vector3[]): string {
+    const { texts, stage } = this.bench, { unit } = stage.mesh.info, [first, second, third] = points as [Vector3, Vector3, Vector3];
+    if (this.#kind === "angle") return texts.measured(angleAt(second, first, third), "°");
+    if (this.#kind === "area") return `${texts.measured(areaOf(points), unit)}²`;
+    if (this.#kind === "profile") void this.#profile.show({ from: first, to: second, eye: stage.parts.camera.position.clone() });
+    return texts.measured(first.distanceTo(second), unit);
   }
 
   #draw(): void {
-    const [first, second] = this.#points, { camera } = this.bench.stage.parts;
-    if (!first || !second) return;
-    const a = this.bench.overlay.project(first.point, camera), b = this.bench.overlay.project(second.point, camera);
-    this.#line.style.width = `${Math.hypot(b.x - a.x, b.y - a.y)}px`;
-    this.#line.style.transform = `translate(${a.x}px, ${a.y}px) rotate(${Math.atan2(b.y - a.y, b.x - a.x)}rad)`;
-    this.#label.style.transform = `translate(${(a.x + b.x) / 2}px, ${(a.y + b.y) / 2}px) translate(-50%, -50%)`;
+    const { overlay, stage, view } = this.bench, places = this.#points.map(({ point }) => overlay.project(point, stage.parts.camera));
+    const isClosed = this.#kind === "area" && places.length > 2, count = Math.max(0, places.length - (isClosed ? 0 : 1));
+    while (this.#lines.length < count) {
+      const line = make("div", { class: "ruler" });
+      this.#lines.push(line);
+      view.insertBefore(line, this.#label);
+    }
+    this.#lines.forEach((line, i) => {
+      const a = places[i], b = places[(i + 1) % places.length];
+      if (!a || !b) return;
+      line.style.width = `${Math.hypot(b.x - a.x, b.y - a.y)}px`;
+      line.style.transform = `translate(${a.x}px, ${a.y}px) rotate(${Math.atan2(b.y - a.y, b.x - a.x)}rad)`;
+    });
+    const around = this.#kind === "angle" ? places.slice(1, 2) : places, mean = (of: "x" | "y") => around.reduce((sum, place) => sum + place[of], 0) / around.length;
+    this.#label.style.transform = `translate(${mean("x")}px, ${mean("y")}px) translate(-50%, ${this.#kind === "angle" ? "20%" : "-50%"})`;
   }
 }

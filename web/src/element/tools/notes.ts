@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Notes on the model: the page's hotspots (slot="hotspot-…" data-position data-normal, as in
-// model-viewer) and the notes in the file named by the attribute `annotations`.
+// Notes on the model. They are the page's hotspots (slot="hotspot-…" data-position data-normal, as
+// in model-viewer) and the notes in the file that the attribute `annotations` names.
 import { Vector3 } from "three";
 import { readAnnotations, triple, type Annotation, type Triple } from "./annotations.ts";
 import type { Bench, Tool } from "./bench.ts";
@@ -11,13 +11,14 @@ const kWatched = { childList: true, subtree: true, attributeFilter: ["slot", "da
 
 export class Notes implements Tool {
   readonly content = make("ol", { class: "notes" });
-  /** Called when a note is chosen; opens the sheet with `content`. */
+  /** Called when a note is chosen, to open the sheet with `content`. */
   onChosen: () => void = () => undefined;
-  /** Called when `content` has changed; `any` is whether it has anything to read. */
+  /** Called when `content` has changed. `any` is false if `content` has nothing to read. */
   onFilled: (any: boolean) => void = () => undefined;
   #marks: Mark[] = [];
   #hotspots: Mark[] = [];
   #loading = "";
+  #wanted: number | undefined; // the note of a link that was opened before the notes were loaded
 
   constructor(private readonly bench: Bench) {}
 
@@ -36,6 +37,25 @@ export class Notes implements Tool {
 
   reset(): void {
     this.#mark(undefined);
+  }
+
+  /** The number of the chosen note, from 1. */
+  get setting(): string {
+    const chosen = [...this.content.children].findIndex((entry) => entry.hasAttribute("aria-current"));
+    return chosen < 0 ? "" : String(chosen + 1);
+  }
+  set setting(text: string) {
+    if (!/^\d{1,4}$/.test(text)) return;
+    this.#wanted = Number(text) - 1;
+    this.#open();
+  }
+
+  /** Shows the note of a link, once the notes are loaded. The link has its own view, so the camera stays. */
+  #open(): void {
+    if (this.#wanted === undefined || !this.#marks[this.#wanted]) return;
+    this.#mark(this.#wanted);
+    this.#wanted = undefined;
+    this.onChosen();
   }
 
   #gather(until: AbortSignal): void {
@@ -66,6 +86,7 @@ export class Notes implements Tool {
     this.content.replaceChildren(...notes.map((note, i) => this.#entry(note, i)));
     this.#marks = notes.map((note, i) => this.#place(this.#button(note, i), note.position, note.normal));
     this.onFilled(notes.length > 0);
+    this.#open();
     if (notes.length > 0) void this.bench.stage.draw();
   }
 
@@ -83,7 +104,7 @@ export class Notes implements Tool {
   #choose(i: number): void {
     const { point, normal } = this.#marks[i] as Mark;
     this.#mark(i);
-    // Without a normal, the camera moves to the side of the model on which the point is.
+    // If the note has no normal, moves the camera to the side of the model on which the point is.
     this.bench.orbit.flyTo(normal ?? point);
     this.onChosen();
     this.content.children[i]?.scrollIntoView({ block: "nearest" });
@@ -97,7 +118,7 @@ export class Notes implements Tool {
     this.#marks.forEach(({ element }, i) => element.classList.toggle("chosen", i === chosen));
   }
 
-  /** Places the page's own hotspots: each is an element of the page, shown through a slot. */
+  /** Places the page's own hotspots. Each hotspot is an element of the page that is shown through a slot. */
   #pin(): void {
     this.#clear(this.#hotspots);
     for (const hotspot of this.bench.host.querySelectorAll<HTMLElement>(":scope > [slot^=hotspot-]")) {

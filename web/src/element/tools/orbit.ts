@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves the camera around the point that it looks at, immediately or animated.
+// Moves the camera around the point that it looks at, either immediately or as an animation.
 import { Vector3 } from "three";
 import type { Stage } from "../stage.ts";
 import { anglesOf, offsetOf, type OrbitView } from "./view.ts";
 
-const kFlight = 600; // milliseconds
+const kFlight = 600; // milliseconds of an animation
 
 export class OrbitController {
   #flight = 0;
@@ -28,7 +28,10 @@ export class OrbitController {
     this.view = { ...view, azimuth: view.azimuth + azimuth, elevation: view.elevation + elevation, distance: view.distance * zoom };
   }
 
-  /** Moves the camera to the side of the target to which `direction` points; without animation if reduced motion is preferred. */
+  /**
+   * Moves the camera to the side of the target to which `direction` points. Skips the animation if
+   * the visitor prefers reduced motion.
+   */
   flyTo(direction: Vector3): void {
     const from = this.view, { azimuth, elevation } = anglesOf(direction);
     const turn = ((((azimuth - from.azimuth) % 360) + 540) % 360) - 180;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps HTML elements in front of points of the model while the camera moves.
+// Keeps HTML elements (marks) in front of points of the model while the camera moves.
 import { Vector3, type PerspectiveCamera } from "three";
 
 export interface Mark {
   element: HTMLElement;
   /** Position relative to the model's centre, in model units. */
   point: Vector3;
-  /** Surface normal. A mark whose normal points away from the camera gets the class `behind`. */
+  /** Surface normal. If it points away from the camera, the mark gets the class `behind`. */
   normal?: Vector3;
 }
 
@@ -32,7 +32,7 @@ export class Overlay {
     for (const follow of this.followers) follow();
   }
 
-  /** Projects a point to CSS pixels from the container's upper left corner. */
+  /** Projects a point to the container. x and y are in CSS pixels from the container's upper left corner. */
   project(point: Vector3, camera: PerspectiveCamera): { x: number; y: number; isVisible: boolean } {
     const { x, y, z } = point.clone().project(camera);
     return { x: ((1 + x) / 2) * this.place.clientWidth, y: ((1 - y) / 2) * this.place.clientHeight, isVisible: z < 1 };

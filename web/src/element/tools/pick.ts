@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the point of the surface that is visible at a pixel. Computes it from the depth that the GPU renders there, so
-// that parts cut away by a section are not picked.
+// Finds the point of the surface that is visible at a pixel, from the depth that the GPU renders
+// there. So parts cut away by a section are not picked.
 import { DoubleSide, MeshDepthMaterial, RGBADepthPacking, Vector3, WebGLRenderTarget } from "three";
 import type { Stage } from "../stage.ts";
 
 /**
- * Unpacks a depth from 0 to 1 that three.js has packed into RGBA. The first three bytes are a 24-bit number, most
- * significant byte first. The fourth byte is a fraction to add to this number, in 255ths.
+ * Unpacks a depth from 0 to 1 that three.js has packed into RGBA. The first three bytes are a
+ * 24-bit number, most significant byte first. The fourth byte, divided by 255, is added to this
+ * number as a fraction.
  */
 export function unpackDepth([high = 0, middle = 0, low = 0, rest = 0]: Iterable<number>): number {
   return (high * 65536 + middle * 256 + low + rest / 255) / 2 ** 24;
 }
 
-/** Returns the point at `x`, `y` (CSS pixels from the canvas' upper left corner), or undefined if the model is not there. */
+/**
+ * Returns the point of the surface at `x`, `y` (CSS pixels from the canvas's upper left corner), or
+ * undefined if there is none.
+ */
 export function pick({ parts: { renderer, scene, camera } }: Stage, x: number, y: number): Vector3 | undefined {
   const { clientWidth, clientHeight } = renderer.domElement;
   const target = new WebGLRenderTarget(1, 1), depth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking, side: DoubleSide });

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets the visitor save a picture, a link to the current view, and the model at a level of detail.
+// Lets the visitor save a picture, share a link to what is shown, and save the model at a level of detail.
 import type { Bench, Tool } from "./bench.ts";
-import { make } from "./dom.ts";
-import { apiOf, exportOf, kFormats, linkTo, viewIn, type ExportDetail } from "./links.ts";
+import { make, save } from "./dom.ts";
+import { apiOf, exportOf, kFormats, linkTo, settingIn, type ExportDetail } from "./links.ts";
+import { formatView, parseView } from "./view.ts";
 
 type DownloadLevel = "shown" | "highest" | "lowest";
 
@@ -15,11 +16,13 @@ export class Save implements Tool {
   readonly #level: HTMLSelectElement;
   readonly #file: HTMLAnchorElement;
 
-  constructor(private readonly bench: Bench) {
+  /** Links keep the settings of the tools `kept`, under their names. */
+  constructor(private readonly bench: Bench, private readonly kept: Record<string, Tool>) {
     const { texts } = bench;
     const picture = make("button", { type: "button", class: "framed", onclick: () => void this.#picture() }, texts.screenshot);
     this.#link = make("input", { readonly: true, name: "link", "aria-label": texts.link, onfocus: () => this.#link.select() });
     const copy = make("button", { type: "button", class: "framed", onclick: () => void this.#copy() }, texts.copy);
+    const share = make("button", { type: "button", class: "framed", hidden: !("share" in navigator), onclick: () => this.#share() }, texts.share);
     const change = () => this.#aim();
     const formats = kFormats.map((name) => option(name, name.toUpperCase()));
     this.#format = make("select", { name: "format", "aria-label": texts.format, onchange: change }, ...formats);
@@ -27,27 +30,40 @@ export class Save implements Tool {
     this.#file = make("a", { class: "framed", download: "" }, texts.download);
     this.#download = make("div", { class: "row" }, this.#level, this.#format);
     this.content = make("div", {}, picture, make("p", { class: "label" }, texts.link), make("div", { class: "row" }, this.#link, copy),
-      this.#said, make("p", { class: "label" }, texts.download), this.#download, this.#file);
+      share, this.#said, make("p", { class: "label" }, texts.download), this.#download, this.#file);
   }
 
   attach(until: AbortSignal): void {
     const { host } = this.bench;
-    const restore = () => {
-      const view = viewIn(location.hash, host.id);
-      if (view) this.bench.orbit.view = view;
-    };
-    addEventListener("hashchange", restore, { signal: until });
+    addEventListener("hashchange", () => this.#restore(), { signal: until });
     host.addEventListener("camera-change", () => this.content.checkVisibility() && this.refresh(), { signal: until });
-    restore();
+    this.#restore();
+  }
+
+  /** Shows what the link of the page says. */
+  #restore(): void {
+    const { bench } = this, setting = (name: string) => settingIn(location.hash, bench.host.id, name);
+    const view = parseView(setting("view")), triangles = Number(setting("detail"));
+    if (view) bench.orbit.view = view;
+    for (const [name, tool] of Object.entries(this.kept)) tool.setting = setting(name);
+    if (triangles > 0) bench.page.choose(triangles);
+  }
+
+  /** The settings that a link keeps. The level of detail is kept only if the visitor has chosen it. */
+  get #settings(): Record<string, string> {
+    const { orbit, page, triangles } = this.bench;
+    const kept = Object.entries(this.kept).map(([name, tool]) => [name, tool.setting ?? ""]);
+    return { view: formatView(orbit.view), ...Object.fromEntries(kept), detail: page.hasChosen() ? String(triangles) : "" };
   }
 
   /**
-   * Updates all links to the current state. Called when the sheet opens, and when the camera moves while it is open.
+   * Updates all links to the current state. Called when the sheet opens, and when the camera moves
+   * while the sheet is open.
    */
   refresh(): void {
-    const { host, orbit, stage, texts, triangles } = this.bench, { levels } = stage.mesh.info;
+    const { host, stage, texts, triangles } = this.bench, { levels } = stage.mesh.info;
     const coarse = levels[0]?.faces ?? 0, fine = levels.at(-1)?.faces ?? 0;
-    this.#link.value = linkTo(location.href, host.id, orbit.view);
+    this.#link.value = linkTo(location.href, host.id, this.#settings);
     this.#said.textContent = "";
     const chosen = this.#level.value;
     this.#level.replaceChildren(
@@ -61,7 +77,7 @@ export class Save implements Tool {
     const level = this.#level.value as DownloadLevel;
     const amount: ExportDetail = level === "shown" ? { triangles: this.bench.triangles } : { level };
     this.#download.hidden = api === undefined || host.token !== "";
-    this.#file.hidden = host.token !== ""; // a link does not send the token
+    this.#file.hidden = host.token !== ""; // a link cannot send the token
     this.#file.textContent = api === undefined ? texts.fileAlone : texts.download;
     this.#file.href = api === undefined ? src : exportOf(api, this.#format.value, amount);
   }
@@ -70,21 +86,23 @@ export class Save implements Tool {
     await this.bench.stage.draw();
     const { domElement } = this.bench.stage.parts.renderer;
     domElement.toBlob((picture) => {
-      if (!picture) return;
-      const address = URL.createObjectURL(picture);
-      make("a", { href: address, download: `${this.#name}.png` }).click();
-      URL.revokeObjectURL(address);
+      if (picture) save(picture, `${this.#name}.png`);
     }, "image/png");
   }
 
   async #copy(): Promise<void> {
     const { texts } = this.bench;
     this.#link.select();
-    // Pages without TLS have no access to the clipboard.
+    // Pages without TLS cannot use the clipboard.
     const isCopied = await (navigator.clipboard?.writeText(this.#link.value) ?? Promise.reject()).then(() => true, () => false);
     this.#said.textContent = isCopied ? texts.copied : texts.copyByHand;
     this.bench.say(this.#said.textContent);
     if (!isCopied) this.#link.focus();
+  }
+
+  /** Opens the system's dialog for sharing. Ignores an error, because closing the dialog is one. */
+  #share(): void {
+    navigator.share({ title: this.bench.host.getAttribute("alt") ?? "", url: this.#link.value }).catch(() => undefined);
   }
 
   get #name(): string {

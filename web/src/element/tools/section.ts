@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clipping plane that cuts the model open. Back faces that become visible get one flat colour, so that a closed
-// model looks solid at the cut.
-import { Color, Plane, type Box3, type MeshStandardMaterial, type WebGLProgramParametersWithUniforms } from "three";
+// A clipping plane that cuts the model open. Back faces that become visible get one uniform colour,
+// so that a closed model looks solid at the cut.
+import { Color, Plane, type Box3 } from "three";
 import type { Bench, Tool } from "./bench.ts";
 import { checkbox, choices, make } from "./dom.ts";
+import { patchColour } from "./patch-colour.ts";
 
 type Axis = "x" | "y" | "z";
 
@@ -11,8 +12,8 @@ const kTone = new Color(0xa9836b);
 const kSteps = 200;
 
 /**
- * Returns the plane perpendicular to `axis` at `fraction` (0 to 1) of the box. It cuts away the side with larger
- * coordinates or, if `isFlipped`, the side with smaller ones.
+ * Returns the plane perpendicular to `axis` at `fraction` (0 to 1) of the box. The plane cuts away
+ * the side with larger coordinates. If `isFlipped`, it cuts away the side with smaller coordinates.
  */
 export function cuttingPlane(box: Box3, axis: Axis, fraction: number, isFlipped: boolean): Plane {
   const at = box.min[axis] + fraction * (box.max[axis] - box.min[axis]);
@@ -28,7 +29,6 @@ export class Section implements Tool {
   readonly #slider: HTMLInputElement;
   readonly #flip: HTMLLabelElement;
   #axis: Axis = "x";
-  #undress: (() => void) | undefined;
 
   constructor(private readonly bench: Bench) {
     const { texts } = bench;
@@ -45,16 +45,29 @@ export class Section implements Tool {
     this.content = make("div", {}, this.#switch, axes, this.#slider, this.#flip);
   }
 
-  attach(until: AbortSignal): void {
-    until.addEventListener("abort", () => (this.#undress = undefined)); // the patched material is disposed of with the model
+  attach(): void {
     this.#cut();
   }
 
   reset(): void {
-    (this.content.querySelector("[value=x]") as HTMLInputElement).checked = true;
-    this.#axis = "x";
-    this.#slider.value = String(kSteps / 2);
-    box(this.#switch).checked = box(this.#flip).checked = false;
+    this.#set(false, "x", kSteps / 2, false);
+  }
+
+  get setting(): string {
+    if (!box(this.#switch).checked) return "";
+    return [this.#axis, this.#slider.value, ...(box(this.#flip).checked ? ["flip"] : [])].join(",");
+  }
+  set setting(text: string) {
+    const [, axis, step, flip] = /^([xyz]),(\d{1,3})(,flip)?$/.exec(text) ?? [];
+    if (axis) this.#set(true, axis as Axis, Number(step), flip !== undefined);
+  }
+
+  #set(isOn: boolean, axis: Axis, step: number, isFlipped: boolean): void {
+    (this.content.querySelector(`[value=${axis}]`) as HTMLInputElement).checked = true;
+    this.#axis = axis;
+    this.#slider.value = String(step); // the slider bounds it
+    box(this.#switch).checked = isOn;
+    box(this.#flip).checked = isFlipped;
     this.#cut();
   }
 
@@ -68,29 +81,11 @@ export class Section implements Tool {
     const fraction = Number(this.#slider.value) / kSteps, bounds = stage.mesh.geometry.boundingBox;
     this.#slider.setAttribute("aria-valuetext", texts.percent(fraction));
     stage.parts.renderer.clippingPlanes = on && bounds ? [cuttingPlane(bounds, this.#axis, fraction, box(this.#flip).checked)] : [];
-    if (on) this.#undress ??= evenInside(stage.mesh.material);
-    else this.#undress = void this.#undress?.();
+    patchColour(stage.mesh.material, "inside", on ? `if (!gl_FrontFacing) gl_FragColor = vec4(${kTone.toArray().map((part) => part.toFixed(4))}, 1.0);` : "");
     void stage.draw();
   }
 }
 
 function box(label: HTMLLabelElement): HTMLInputElement {
   return label.querySelector("input") as HTMLInputElement;
-}
-
-/** Paints back faces in one flat colour; returns a function that undoes this. */
-function evenInside(material: MeshStandardMaterial): () => void {
-  const { onBeforeCompile, customProgramCacheKey } = material;
-  const tone = `vec4(${kTone.toArray().map((part) => part.toFixed(4)).join(", ")}, 1.0)`;
-  material.onBeforeCompile = (shader: WebGLProgramParametersWithUniforms, renderer) => {
-    onBeforeCompile.call(material, shader, renderer);
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <opaque_fragment>", `#include <opaque_fragment>\nif (!gl_FrontFacing) gl_FragColor = ${tone};`);
-  };
-  material.customProgramCacheKey = () => `${customProgramCacheKey.call(material)} even inside`;
-  material.needsUpdate = true;
-  return () => {
-    Object.assign(material, { onBeforeCompile, customProgramCacheKey });
-    material.needsUpdate = true;
-  };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The toolbar and the sheets that its buttons open, one at a time.
+// The toolbar, and the sheets that its buttons open. At most one sheet is open.
 import { make } from "./dom.ts";
 import { icon, type Icon } from "./icons.ts";
 

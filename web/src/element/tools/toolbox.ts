@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visitor's tools. They are a separate bundle that is loaded after the first paint and shares no code with
-// the viewer's other bundles: it gets the objects that it needs as arguments.
+// The visitor's tools. They are a separate bundle that is loaded after the first paint. The bundle
+// shares no code with the viewer's other bundles: it gets the objects that it needs as arguments.
 import type { ViewerTexts } from "../../texts/index.ts";
 import type { Panel } from "../panel.ts";
 import type { Stage } from "../stage.ts";
 import { Announcer } from "./announcer.ts";
-import type { Bench, Tool, ViewerDefaults } from "./bench.ts";
+import type { Bench, Tool, ViewerControls } from "./bench.ts";
 import { make } from "./dom.ts";
+import { DragHint } from "./drag-hint.ts";
 import { Idle } from "./idle.ts";
 import { Keyboard } from "./keyboard.ts";
 import { Light } from "./light.ts";
@@ -15,9 +16,11 @@ import { Notes } from "./notes.ts";
 import { OrbitController } from "./orbit.ts";
 import { Overlay } from "./overlay.ts";
 import { Save } from "./save.ts";
+import { Shadow } from "./shadow.ts";
 import { Section } from "./section.ts";
 import { Sheets } from "./sheets.ts";
 import { SurfaceStyle } from "./surface.ts";
+import { Visits } from "./visits.ts";
 import style from "./tools.css?text";
 
 export class Toolbox implements Bench {
@@ -29,29 +32,31 @@ export class Toolbox implements Bench {
   readonly #bar: HTMLElement;
   readonly #sheets: Sheets;
   readonly #tools: Tool[];
+  readonly #visits = new Visits(this);
   readonly #made: HTMLElement[];
   #stage: Stage | undefined;
-  #page: ViewerDefaults | undefined;
+  #page: ViewerControls | undefined;
   #until = new AbortController();
 
-  constructor(readonly host: Bench["host"], { root, view, choice }: Panel, readonly texts: ViewerTexts) {
+  constructor(readonly host: Bench["host"], panel: Panel, readonly texts: ViewerTexts) {
+    const { root, view, choice } = panel;
     const marks = make("div", { class: "marks" });
-    this.#made = [make("style", {}, style), marks, this.#heard];
-    root.append(this.#made[0] as HTMLElement);
+    this.#made = [marks, this.#heard];
+    panel.style(style);
     view.append(marks, this.#heard);
     this.view = view;
     this.overlay = new Overlay(marks);
     this.#choice = choice;
     this.#bar = root.querySelector(".tools") as HTMLElement;
     this.#sheets = new Sheets(this.#bar, texts.close);
-    this.#tools = [...this.#fill(), new Keyboard(this), new Announcer(this), new Idle(this, () => this.#startOver())];
+    this.#tools = [...this.#fill(), new Keyboard(this), new Announcer(this), new DragHint(this), this.#visits, new Idle(this, () => this.#startOver())];
   }
 
   get stage(): Stage {
     return this.#stage as Stage;
   }
-  get page(): ViewerDefaults {
-    return this.#page as ViewerDefaults;
+  get page(): ViewerControls {
+    return this.#page as ViewerControls;
   }
   get triangles(): number {
     return this.#choice.triangles;
@@ -61,7 +66,7 @@ export class Toolbox implements Bench {
     this.#heard.textContent = text;
   }
 
-  attach(stage: Stage, page: ViewerDefaults): void {
+  attach(stage: Stage, page: ViewerControls): void {
     this.#stage = stage;
     this.#page = page;
     this.#until = new AbortController();
@@ -72,7 +77,7 @@ export class Toolbox implements Bench {
     void stage.draw();
   }
 
-  /** Detaches the tools from the stage, which is about to be disposed of. */
+  /** Detaches the tools from the stage. Called before the stage is disposed of. */
   detach(): void {
     this.#bar.inert = true;
     this.orbit.stop();
@@ -90,13 +95,14 @@ export class Toolbox implements Bench {
     this.#bar.replaceWith(this.#bar.cloneNode());
   }
 
-  /** Adds the buttons to the toolbar, in the order in which visitors need them. Returns the tools. */
+  /** Adds the buttons to the toolbar, the most needed ones first. Returns the tools. */
   #fill(): Tool[] {
     const { texts } = this, sheets = this.#sheets;
-    const light = new Light(this), surface = new SurfaceStyle(this), section = new Section(this);
-    const measure = new Measure(this), notes = new Notes(this), save = new Save(this);
+    const light = new Light(this), shadow = new Shadow(this), surface = new SurfaceStyle(this), section = new Section(this);
+    const measure = new Measure(this), notes = new Notes(this);
+    const save = new Save(this, { light, shadow, surface, section, note: notes });
     sheets.action("reset", texts.reset, () => this.page.frame());
-    sheets.add("light", texts.light, light.content);
+    sheets.add("light", texts.light, make("div", {}, light.content, shadow.content));
     sheets.add("surface", texts.surface, surface.content);
     sheets.add("section", texts.section, section.content);
     sheets.add("measure", texts.measure, measure.content, (open) => (measure.isActive = open));
@@ -107,7 +113,7 @@ export class Toolbox implements Bench {
     sheets.add("save", texts.save, save.content, (open) => open && save.refresh());
     const full = sheets.action("fullScreen", texts.fullScreen, () => void this.#fillScreen());
     full.hidden = !document.fullscreenEnabled;
-    return [light, surface, section, measure, notes, save];
+    return [light, shadow, surface, section, measure, notes, save];
   }
 
   #fillScreen(): Promise<void> {
@@ -115,6 +121,7 @@ export class Toolbox implements Bench {
   }
 
   #startOver(): void {
+    this.#visits.leave();
     this.#sheets.close();
     for (const tool of this.#tools) tool.reset?.();
     this.page.frame();

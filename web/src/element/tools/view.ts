@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera positions as numbers for links and as words for screen readers. Angles are in degrees: azimuth 0 is
-// the front and 90 the right, elevation 90 is above.
+// Camera positions as numbers for links, and as words for screen readers. Angles are in degrees.
+// Azimuth 0 is the front, and azimuth 90 is the right side. Elevation 90 is above.
 
 export interface OrbitView {
   azimuth: number;
@@ -41,7 +41,7 @@ export function heightOf(elevation: number): Height {
   return elevation > 25 ? "above" : elevation < -25 ? "below" : "level";
 }
 
-/** Formats a view for a link as six numbers, rounded to a precision that makes no visible difference. */
+/** Formats a view for a link as six numbers. The rounding makes no visible difference. */
 export function formatView({ azimuth, elevation, distance, target }: OrbitView): string {
   return [azimuth.toFixed(1), elevation.toFixed(1), ...[distance, ...target].map((value) => Number(value.toPrecision(5)))].join(",");
 }

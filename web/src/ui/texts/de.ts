@@ -39,8 +39,11 @@ export const de: PageTexts = {
   units: { mm: "Millimeter", cm: "Zentimeter", m: "Meter", in: "Zoll" },
   amount: (triangles, bytes) => `${triangles} Dreiecke, ${bytes}`,
 
+  viewed: (day: string) => `abgerufen am ${day}`,
+  compare: { title: "Vergleichen", wipe: "Übereinander", wipeAt: "Lage der Trennlinie", left: "Objekt links", right: "Objekt rechts", other: "Mit einem anderen Objekt vergleichen" },
   embed: "Einbetten",
   embedHint: "Zwei Zeilen zeigen dieses Objekt auf einer eigenen Seite.",
+  frameHint: "Oder diese, wenn die eigene Seite keine Skripte erlaubt:",
   iiif: "IIIF-Manifest",
   copy: "Kopieren",
   copied: "Kopiert",

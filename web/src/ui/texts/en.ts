@@ -37,8 +37,11 @@ export const en = {
   units: { mm: "millimetres", cm: "centimetres", m: "metres", in: "inches" },
   amount: (triangles: string, bytes: string) => `${triangles} triangles, ${bytes}`,
 
+  viewed: (day: string) => `viewed on ${day}`,
+  compare: { title: "Compare", wipe: "One over the other", wipeAt: "Position of the wipe", left: "Left object", right: "Right object", other: "Compare with another object" },
   embed: "Embed",
   embedHint: "These two lines embed this object in your own page.",
+  frameHint: "Or this one, if your site allows no scripts:",
   iiif: "IIIF manifest",
   copy: "Copy",
   copied: "Copied",

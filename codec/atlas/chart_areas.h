@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes areas of a chart's faces, in space and in the plane.
+#pragma once
+
+#include "codec/atlas/chart.h"
+#include "codec/mesh/symmetric_dirichlet.h"
+
+namespace vitrine::inline codec {
+
+// Very thin faces count as slightly wider than they are; see doubled_area().
+inline double area_in_space(const Chart& chart, std::uint32_t face) {
+  const auto& [a, b, c] = chart.wedges[face];
+  const Vec3& from = chart.positions[a];
+  return doubled_area(chart.positions[b] - from, chart.positions[c] - from) / 2;
+}
+
+// Negative if the face is flipped.
+inline double area_in_plane(const Chart& chart, std::uint32_t face) {
+  const auto& [a, b, c] = chart.wedges[face];
+  return cross(chart.uv[b] - chart.uv[a], chart.uv[c] - chart.uv[a]) / 2;
+}
+
+}  // namespace vitrine::inline codec

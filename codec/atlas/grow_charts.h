@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Divides the faces of a mesh into compact charts whose normals vary little.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/atlas/chart.h"
+
+namespace vitrine::inline codec {
+
+// Returns a label for each face. Grows about 40 charts from seeds by Dijkstra's algorithm, then
+// moves each seed to the middle of its chart, and repeats this (Lloyd's algorithm on faces, as in
+// [SWG03]). Each component has at least one chart. Charts of few faces are merged with a neighbour
+// if there is one.
+std::vector<std::uint32_t> grow_charts(const MeshView& mesh, const HalfEdges& edges);
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connectivity of the base mesh while it is read: a corner table with open boundaries. Corners are
+// numbered as in codec/mesh/connectivity.h. Internal to codec/base.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/mesh/connectivity.h"
+
+namespace vitrine::inline codec {
+
+struct CornerTable {
+  std::vector<VertexId> vertex;  // per corner
+  std::vector<Corner> opposite;  // per corner; kNoCorner if its opposite edge is at the boundary
+  std::vector<Corner> leftmost;  // per vertex: a corner, at the boundary the last one to the left
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(leftmost.size()); }
+  std::uint32_t face_count() const { return static_cast<std::uint32_t>(vertex.size() / 3); }
+
+  // The next corner at the same vertex, counter-clockwise or clockwise. Returns kNoCorner at the
+  // boundary.
+  Corner swing_left(Corner c) const {
+    const Corner across = opposite[next(c)];
+    return across == kNoCorner ? kNoCorner : next(across);
+  }
+  Corner swing_right(Corner c) const {
+    const Corner across = opposite[prev(c)];
+    return across == kNoCorner ? kNoCorner : prev(across);
+  }
+};
+
+}  // namespace vitrine::inline codec

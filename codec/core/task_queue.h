@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs tasks on worker threads and on the thread that adds them.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <vector>
+
+namespace vitrine::inline codec {
+
+// Starts the tasks in the order in which they were added. One thread must make all calls.
+class TaskQueue {
+ public:
+  struct Task {
+    std::function<void()> run;
+    std::size_t weight;  // an estimate of the task's memory, in any unit
+  };
+
+  // Uses at most `threads` (>= 1) threads, one of which is the caller's. The weights of all tasks
+  // that wait or run add up to at most `most_weight`, unless there is only one.
+  TaskQueue(unsigned threads, std::size_t most_weight);
+  // Drops the tasks that wait.
+  ~TaskQueue();
+  TaskQueue(const TaskQueue&) = delete;
+
+  // Waits, and runs waiting tasks meanwhile, until a task of this weight may be added.
+  void make_room(std::size_t weight);
+  // Adds a task. If more tasks wait than there are other threads, runs the oldest of them.
+  void add(Task task);
+  // Runs the tasks that wait. Returns after all tasks have ended. If tasks have thrown, rethrows
+  // the first exception.
+  void finish();
+
+ private:
+  void work();
+  bool run_oldest(std::unique_lock<std::mutex>& lock);
+
+  const std::size_t most_weight_;
+  std::mutex mutex_;
+  std::condition_variable changed_;  // a task was added or has ended, or is_closed_ was set
+  std::deque<Task> waiting_;
+  std::size_t weight_ = 0;   // total weight of the tasks that wait or run
+  std::size_t running_ = 0;  // number of tasks that run
+  bool is_closed_ = false;
+  std::exception_ptr failure_;  // the first exception of a task
+  std::vector<std::future<void>> workers_;
+};
+
+}  // namespace vitrine::inline codec

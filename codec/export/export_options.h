@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of write_mesh(), and what an exported file says about its content.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "codec/core/vec.h"
+#include "codec/mesh/up_axis.h"
+
+namespace vitrine::inline codec {
+
+// Whether files have a normal per vertex; STL and DRC files never do. Without normals, most
+// programs show facets.
+enum class Normals { kSmooth, kNone };
+
+// The statements of a file about its content. Texts may have any bytes: writers replace control
+// characters by blanks and shorten long texts. Empty texts are left out.
+struct FileDescription {
+  std::string title, creator, rights, licence;
+  std::string source;                       // URL of the model's page
+  std::optional<std::uint32_t> level = {};  // the finest complete level of detail
+  std::optional<double> error = {};         // upper bound of the error, in the positions' unit
+};
+
+// The compression of GLB files: none, EXT_meshopt_compression or KHR_draco_mesh_compression.
+enum class Compression { kNone, kMeshopt, kDraco };
+
+// The grid to which a compressed file may round positions: origin + step * integer, in the
+// positions' unit.
+struct ExportGrid {
+  Vec3 origin;
+  double step = 1;  // > 0 and finite
+};
+
+struct ExportOptions {
+  std::string_view unit = {};  // unit of the positions; empty if it is unknown
+  // The unit in the file: one of kLengthUnits. Empty: `unit`, or the metre if the format requires
+  // it. Has no effect if `unit` is not one of kLengthUnits.
+  std::string_view unit_in_file = {};
+  // The axis that points up in the file. The mesh has y up. nullopt: the mesh is written as it is,
+  // and the file does not state an axis.
+  std::optional<UpAxis> up = {};
+  Normals normals = Normals::kSmooth;
+  FileDescription about = {};
+  // For GLB files only. Compressed files round positions to `grid`, normals to about a degree and
+  // texture coordinates to 16 bits. Without a grid, meshopt keeps positions exactly, and Draco has
+  // 24 bits per coordinate of the bounding box.
+  Compression compression = Compression::kNone;
+  std::optional<ExportGrid> grid = {};
+};
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compresses streams of a GLB file for EXT_meshopt_compression [glTF].
+#pragma once
+
+#include "codec/export/glb_streams.h"
+
+namespace vitrine::inline codec {
+
+// Orders faces and vertices so that they compress well. The faces must be of one material.
+void order_for_meshopt(SeamVertices& vertices);
+
+// Compress the bytes of a stream and set its mode. Attributes with the filter OCTAHEDRAL are four
+// floats before, and four bytes per element after decompression.
+void compress_attribute(GlbStream& stream);
+void compress_indices(GlbStream& stream, const SeamVertices& vertices);
+
+}  // namespace vitrine::inline codec

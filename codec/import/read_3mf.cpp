@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the model part of a 3MF package [3MF]: objects of triangles, their components and colours,
+// as the build items place them. The other parts of the package are companions.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <pugixml.hpp>
+#include <string>
+#include <vector>
+
+#include "codec/core/parse_number.h"
+#include "codec/gltf/affine.h"
+#include "codec/import/face_colours.h"
+#include "codec/import/readers.h"
+#include "codec/import/text_cursor.h"
+
+namespace vitrine::inline codec {
+namespace {
+
+using Node = pugi::xml_node;
+
+// A unit of 3MF, and the unit in which the mesh is given.
+struct ThreeMfUnit {
+  std::string_view name, given;
+  double scale;
+};
+constexpr ThreeMfUnit kThreeMfUnits[] = {{"millimeter", "mm", 1}, {"centimeter", "cm", 1},
+                                         {"meter", "m", 1},       {"inch", "in", 1},
+                                         {"foot", "in", 12},      {"micron", "mm", 0.001}};
+
+constexpr std::size_t kThreeMfStart = 4'096;  // bytes in which the element "model" begins
+
+std::string_view start_of(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), kThreeMfStart)};
+}
+
+// Returns the unit that the element "model" states. 3MF demands millimetres if there is none.
+const ThreeMfUnit& unit_in(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kUnit = " unit=";
+  std::string_view text = start_of(bytes);
+  text.remove_prefix(std::min(text.find("<model"), text.size()));
+  text = text.substr(0, text.find('>'));
+  text.remove_prefix(std::min(text.find(kUnit), text.size()));
+  text.remove_prefix(std::min(kUnit.size() + 1, text.size()));
+  const std::string_view name = text.substr(0, text.find_first_of("\"'"));
+  const auto* found = std::ranges::find(kThreeMfUnits, name, &ThreeMfUnit::name);
+  return found == std::end(kThreeMfUnits) ? kThreeMfUnits[0] : *found;
+}
+
+// Returns a name without the prefix of its XML namespace.
+std::string_view local_name(std::string_view name) {
+  return name.substr(name.find(':') + 1);
+}
+
+// Returns the value of an attribute, whatever the prefix of its namespace. Empty if it is missing.
+std::string_view value_of(const Node& node, std::string_view name) {
+  for (const pugi::xml_attribute& attribute : node.attributes()) {
+    if (local_name(attribute.name()) == name) return attribute.value();
+  }
+  return {};
+}
+
+template <class Number>
+std::optional<Number> number_in(const Node& node, std::string_view name) {
+  return parse_number<Number>(value_of(node, name));
+}
+
+// Returns a transform: twelve numbers, of which the first three are the image of the x axis.
+std::optional<Affine> affine_of(const Node& node) {
+  const std::string_view text = value_of(node, "transform");
+  if (text.empty()) return Affine{};
+  TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  std::array<double, 12> m{};
+  for (double& number : m) {
+    if (!cursor.read_number(number)) return std::nullopt;
+  }
+  return Affine{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}, {m[9], m[10], m[11]}};
+}
+
+// Returns a colour such as "#FF8000" or "#FF8000FF".
+StatedColour colour_in(std::string_view text) {
+  constexpr std::size_t kDigits = 6;
+  StatedColour colour{};
+  if (text.size() <= kDigits || text[0] != '#') return kNoColour;
+  for (std::size_t k = 0; k < 3; ++k) {
+    unsigned value = 0;
+    const char* begin = text.data() + 1 + 2 * k;
+    if (std::from_chars(begin, begin + 2, value, 16).ptr != begin + 2) return kNoColour;
+    colour[k] = static_cast<float>(value) / 255;
+  }
+  return colour;
+}
+
+// One model file of the package.
+struct Part {
+  pugi::xml_document document;
+  std::map<std::string_view, Node> objects;                       // by id
+  std::map<std::string_view, std::vector<StatedColour>> colours;  // by id of the group
+
+  bool load(std::span<const std::uint8_t> bytes) {
+    if (!document.load_buffer(bytes.data(), bytes.size(), pugi::parse_minimal)) return false;
+    for (const Node& resource : document.child("model").child("resources").children())
+      add(resource);
+    return true;
+  }
+
+ private:
+  void add(const Node& resource) {
+    const std::string_view kind = local_name(resource.name()), id = value_of(resource, "id");
+    if (kind == "object") objects.emplace(id, resource);
+    if (kind != "basematerials" && kind != "colorgroup") return;
+    auto& group = colours[id];
+    for (const Node& colour : resource.children())
+      group.push_back(colour_in(value_of(colour, kind == "colorgroup" ? "color" : "displaycolor")));
+  }
+};
+
+class ThreeMfReader {
+ public:
+  explicit ThreeMfReader(const ReadOptions& options) : options_(options) { mesh_.format = "3MF"; }
+
+  Expected<RawMesh> read(std::span<const std::uint8_t> bytes) {
+    const Part* root = part("", bytes);
+    if (root == nullptr) return damaged();
+    const double scale = unit_in(bytes).scale;
+    // 3MF has z up.
+    const Affine to_y_up{{scale, 0, 0}, {0, 0, -scale}, {0, scale, 0}, {}};
+    for (const Node& item : root->document.child("model").child("build").children("item")) {
+      if (auto ok = place(*root, item, to_y_up, 0); !ok) return tl::unexpected(ok.error());
+    }
+    if (mesh_.face_count() == 0)
+      return bad_input("the 3MF places no object with triangles; export the model again");
+    if (has_colours_) colours_.give_to(mesh_);
+    if (textured_ > 0)
+      mesh_.repairs.push_back("textures of " + counted(textured_, "face") +
+                              " not carried: those of 3MF are not read; export GLB");
+    return std::move(mesh_);
+  }
+
+ private:
+  static Unexpected damaged() {
+    return bad_input("the 3MF's XML is damaged; export the file again");
+  }
+
+  // Returns the part with this key, or nullptr if it is damaged. Parses it at the first call.
+  const Part* part(const std::string& key, std::span<const std::uint8_t> bytes) {
+    const auto [it, is_new] = parts_.try_emplace(key);
+    if (!is_new) return it->second ? &*it->second : nullptr;
+    room_ += bytes.size();
+    if (!it->second.emplace().load(bytes)) it->second.reset();
+    return it->second ? &*it->second : nullptr;
+  }
+
+  // Places the object to which an item or component refers.
+  Expected<void> place(const Part& from, const Node& reference, const Affine& outer, int depth) {
+    constexpr int kDeepest = 16;
+    if (depth > kDeepest || ++placed_ > room_)
+      return bad_input("the 3MF's components are in a cycle or too many; export the file again");
+    const auto local = affine_of(reference);
+    if (!local) return bad_input("a transform in the 3MF is damaged; export the file again");
+    const std::string_view path = value_of(reference, "path"), id = value_of(reference, "objectid");
+    const Part* in = &from;
+    if (!path.empty()) {
+      const auto bytes = find_companion(options_.beside, path);
+      if (!bytes)
+        return bad_input("the 3MF lacks its part " + in_quotes(path) + "; export it again");
+      in = part(companion_key(path), *bytes);
+      if (in == nullptr) return damaged();
+    }
+    const auto object = in->objects.find(id);
+    if (object == in->objects.end())
+      return bad_input("the 3MF lacks its object " + in_quotes(id) + "; export it again");
+    return add_object(*in, object->second, outer * *local, depth);
+  }
+
+  Expected<void> add_object(const Part& in, const Node& object, const Affine& place_of_object,
+                            int depth) {
+    if (value_of(object, "type") == "support") return {};
+    if (const Node mesh = object.child("mesh")) {
+      const std::size_t first = mesh_.positions.size();
+      if (auto ok = add_vertices(mesh.child("vertices"), place_of_object); !ok) return ok;
+      return add_triangles(in, object, first, place_of_object.mirrors());
+    }
+    for (const Node& component : object.child("components").children("component")) {
+      if (auto ok = place(in, component, place_of_object, depth + 1); !ok) return ok;
+    }
+    return {};
+  }
+
+  Expected<void> add_vertices(const Node& vertices, const Affine& place_of_object) {
+    for (const Node& vertex : vertices.children("vertex")) {
+      if (mesh_.positions.size() >= room_) return too_many();
+      const auto x = number_in<double>(vertex, "x"), y = number_in<double>(vertex, "y"),
+                 z = number_in<double>(vertex, "z");
+      if (!x || !y || !z)
+        return bad_input("vertex " + std::to_string(mesh_.positions.size()) +
+                         " of the 3MF lacks a coordinate; export the file again");
+      mesh_.positions.push_back(place_of_object({*x, *y, *z}));
+    }
+    return {};
+  }
+
+  Expected<void> add_triangles(const Part& in, const Node& object, std::size_t first,
+                               bool is_mirrored) {
+    const std::size_t count = mesh_.positions.size() - first;
+    for (const Node& node : object.child("mesh").child("triangles").children("triangle")) {
+      if (mesh_.face_count() >= room_) return too_many();
+      Triangle triangle{};
+      constexpr const char* kCorners[] = {"v1", "v2", "v3"};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto corner = number_in<std::uint32_t>(node, kCorners[k]);
+        if (!corner || *corner >= count)
+          return bad_input("face " + std::to_string(mesh_.face_count()) +
+                           " of the 3MF refers to a vertex that its object does not have");
+        triangle[k] = static_cast<std::uint32_t>(first) + *corner;
+      }
+      if (is_mirrored) std::swap(triangle[1], triangle[2]);
+      mesh_.add_triangle(triangle);
+      colours_.add(triangle, colour_of(in, object, node));
+    }
+    return {};
+  }
+
+  // Returns the mean colour of a triangle's corners.
+  StatedColour colour_of(const Part& in, const Node& object, const Node& triangle) {
+    std::string_view group = value_of(triangle, "pid");
+    const bool is_own = !group.empty();
+    if (!is_own) group = value_of(object, "pid");
+    if (group.empty()) return kNoColour;
+    const auto found = in.colours.find(group);
+    if (found == in.colours.end()) return ++textured_, kNoColour;
+    const std::optional<std::size_t> first =
+        number_in<std::size_t>(is_own ? triangle : object, is_own ? "p1" : "pindex");
+    StatedColour sum{};
+    for (const char* name : {"p1", "p2", "p3"}) {
+      const auto index = is_own ? number_in<std::size_t>(triangle, name) : first;
+      const std::size_t i = index.value_or(first.value_or(0));
+      if (i >= found->second.size()) return kNoColour;
+      for (std::size_t k = 0; k < 3; ++k)
+        sum[k] += found->second[i][k] / 3;
+    }
+    has_colours_ = true;
+    return sum;
+  }
+
+  static Unexpected too_many() {
+    return fail(ErrorCode::kLimit,
+                "the 3MF's components repeat too many triangles; export it as one object");
+  }
+
+  const ReadOptions& options_;
+  std::map<std::string, std::optional<Part>> parts_;
+  // Bytes of all parts. The mesh has at most as many vertices and faces, however its objects are
+  // repeated.
+  std::uint64_t room_ = 0, placed_ = 0, textured_ = 0;
+  RawMesh mesh_;
+  FaceColours colours_;
+  bool has_colours_ = false;
+};
+
+}  // namespace
+
+bool is_3mf(std::span<const std::uint8_t> bytes) {
+  const std::string_view start = start_of(bytes);
+  return start.find("<model") != start.npos && start.find("3dmanufacturing") != start.npos;
+}
+
+std::string_view unit_of_3mf(std::span<const std::uint8_t> bytes) {
+  return unit_in(bytes).given;
+}
+
+Expected<RawMesh> read_3mf(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+  return ThreeMfReader(options).read(bytes);
+}
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smooth vertex normals: the mean of the normals of a vertex's faces, weighted by area.
+#pragma once
+
+#include <vector>
+
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::inline codec {
+
+// Returns the normal of each vertex. Normals are not unit vectors and may be 0.
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
+
+// Like vertex_normals(), but returns unit vectors, as the viewer shades the mesh. A vertex whose
+// normal would be 0 gets (0, 0, 1).
+std::vector<Vec3> unit_normals(const TriangleMesh& mesh);
+
+// Like vertex_normals(), but a vertex also counts the faces of all other vertices at its position.
+// A file that repeats its vertices, such as STL, then looks like one with shared vertices.
+std::vector<Vec3> position_normals(const TriangleMesh& mesh);
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A queue that serves its owners in turn, so that an owner with many items delays the next item of
+// each other owner by one item only.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace vitrine::server {
+
+// Each item belongs to a round, and each owner has at most one new item in a round. Rounds are
+// served one after the other, the items of a round in the order of their arrival. Not thread-safe.
+template <class Item>
+class FairQueue {
+ public:
+  void push(const std::string& owner, Item item) {
+    std::uint64_t& last = last_round_[owner];
+    last = std::max(round_, last + 1);
+    items_.emplace(std::pair(last, arrivals_++), std::move(item));
+  }
+
+  // Removes and returns the next item for which `is_ready(item)` is true, or nullopt.
+  template <class Predicate>
+  std::optional<Item> take(Predicate is_ready) {
+    const auto next =
+        std::ranges::find_if(items_, [&](const auto& entry) { return is_ready(entry.second); });
+    if (next == items_.end()) return std::nullopt;
+    round_ = std::max(round_, next->first.first);
+    // Forgets owners whose last item was in an earlier round. Their next item joins the current
+    // round.
+    std::erase_if(last_round_, [this](const auto& owner) { return owner.second < round_; });
+    std::optional<Item> item = std::move(next->second);
+    items_.erase(next);
+    return item;
+  }
+
+ private:
+  // Keyed by round and order of arrival.
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Item> items_;
+  std::map<std::string, std::uint64_t>
+      last_round_;  // last round of each owner, if it is `round_` or later
+  std::uint64_t round_ = 1, arrivals_ = 0;
+};
+
+}  // namespace vitrine::server

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts damaged and missing objects of an installation back from intact copies.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "server/store/installation.h"
+#include "server/store/scrub.h"
+
+namespace vitrine::server {
+
+// Receives the bytes of an object and its SHA-256.
+using TakeCopy =
+    std::function<Expected<void>(const Sha256& name, std::span<const std::uint8_t> bytes)>;
+
+// Passes to `take` each wanted object that the source has with the right SHA-256.
+using CopySource =
+    std::function<Expected<void>(const std::set<Sha256>& wanted, const TakeCopy& take)>;
+
+// The copies in a backup. kBadInput if the file is not a backup, kIo if it cannot be read.
+CopySource copies_in_backup(const std::filesystem::path& file);
+
+// Returns a source of the copies in another store, which must outlive the result. The source fails
+// with kIo.
+CopySource copies_in_store(const ObjectStore& store);
+
+struct RepairReport {
+  std::uint64_t objects = 0;  // number of checked objects
+  std::vector<DamagedFile> repaired;
+  std::vector<DamagedFile>
+      damaged;  // objects that are still damaged or missing, since the source has no intact copy
+};
+
+// Checks all objects of the installation and puts back those that are damaged or missing. Daemons
+// may serve the installation meanwhile, and serve the repaired models at once. kIo if a store or
+// the catalogue fails, kBadInput if the source is malformed.
+Expected<RepairReport> repair(Installation& installation, const CopySource& source);
+
+}  // namespace vitrine::server

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decides by the Host field whether to answer a request. A page of another site can make its own
+// name resolve to the daemon's address (DNS rebinding). Its requests then name a host that is not
+// the daemon's, so they are refused.
+#pragma once
+
+#include <string_view>
+
+#include "server/config/settings.h"
+
+namespace vitrine::server {
+
+// Whether `host`, the value of a Host field with or without a port, names this daemon: it is the
+// host of public-url or scan-address, an entry of the setting hosts, localhost, or a numeric
+// address, which no DNS server resolves. Also true for an empty value, which no browser sends.
+bool is_own_host(const Settings& settings, std::string_view host);
+
+// Whether the daemon answers requests for `host` on 'listen': its own hosts, or every host if
+// neither public-url nor hosts is set.
+bool is_public_host(const Settings& settings, std::string_view host);
+
+// Whether `origin`, the value of an Origin field, is an entry of the setting allowed-origins.
+bool is_trusted_origin(const Settings& settings, std::string_view origin);
+
+// Whether `text` is an origin in the form that browsers send: scheme, host in lower case, and the
+// port unless it is the default.
+bool is_origin(std::string_view text);
+
+// Whether `text` is a host name without a port.
+bool is_host_name(std::string_view text);
+
+}  // namespace vitrine::server

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/cache_purge.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <thread>
+
+#include "server/remote/remote_server.h"
+
+namespace vitrine::server {
+namespace {
+
+constexpr std::chrono::seconds kPurgeDeadline{10};  // time limit of each request
+// All daemons have noticed a change of the catalogue after this time. A cache that forgets a chunk
+// earlier could fetch it again.
+constexpr std::chrono::milliseconds kAllHaveNoticed{250};
+
+// Whether a cache has forgotten a chunk. Caches respond with 404 or 412 if they do not have it.
+bool is_forgotten(long status) {
+  return status / 100 == 2 || status == 404 || status == 412;
+}
+
+// Whether no published model has the chunk. True if the catalogue cannot be read, because a cache
+// that forgets a public chunk only has to fetch it again.
+bool is_hidden(const Sha256& chunk, Catalogue& catalogue) {
+  const auto place = catalogue.find_chunk(chunk);
+  return !place || !*place;
+}
+
+}  // namespace
+
+void CachePurge::forget(std::vector<Sha256> chunks) {
+  const auto noticed = std::chrono::steady_clock::now() + kAllHaveNoticed;
+  executor_.post([this, noticed, chunks = std::move(chunks)] {
+    if (is_stopping_) return;
+    std::this_thread::sleep_until(noticed);
+    std::vector<Sha256> hidden;
+    for (const Sha256& chunk : chunks) {
+      if (!is_stopping_ && is_hidden(chunk, catalogue_)) hidden.push_back(chunk);
+    }
+    for (const std::string& cache : caches_)
+      purge(cache, hidden);
+  });
+}
+
+void CachePurge::stop() {
+  is_stopping_ = true;
+  executor_.finish();
+}
+
+void CachePurge::purge(const std::string& cache, const std::vector<Sha256>& chunks) {
+  RemoteServer server;
+  for (const Sha256& chunk : chunks) {
+    if (is_stopping_) return;
+    const auto answer = server.ask({.method = "PURGE",
+                                    .url = cache + "/api/v1/chunks/" + to_hex(chunk),
+                                    .deadline = kPurgeDeadline,
+                                    .given_up = [this] { return is_stopping_.load(); }});
+    if (answer && is_forgotten(answer->status)) continue;
+    const std::string fault =
+        answer ? fmt::format("it responds with {}", answer->status) : answer.error().message;
+    return events_.event(
+        Severity::kWarning,
+        fmt::format("cache {} was not purged: {}; it keeps withdrawn chunks for up "
+                    "to 3 minutes",
+                    cache, fault));
+  }
+  if (!chunks.empty())
+    events_.event(Severity::kInfo, fmt::format("cache {}: {} chunks purged", cache, chunks.size()));
+}
+
+}  // namespace vitrine::server

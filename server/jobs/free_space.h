@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Free space on the disks to which a daemon writes.
+#pragma once
+
+#include <cstdint>
+
+#include "server/config/settings.h"
+
+namespace vitrine::server {
+
+// Returns the free bytes for this process on the disk of the data folder, or on that of the uploads
+// if it has fewer. A disk whose free space is unknown counts as having unlimited free space.
+std::uint64_t free_space(const Settings& settings);
+
+}  // namespace vitrine::server

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verifies the checksum that a client sends with a body (tus 1.0.0, extension checksum).
+#pragma once
+
+#include <openssl/evp.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace vitrine::server {
+
+class BodyChecksum {
+ public:
+  static constexpr std::string_view kAlgorithms = "sha1,sha256,md5";
+
+  // Reads a field such as "sha1 " and the hash in Base64. Returns nullopt if the field is malformed
+  // or names another algorithm.
+  static std::optional<BodyChecksum> parse(std::string_view field);
+
+  void add(std::span<const std::uint8_t> piece);
+
+  // Whether the pieces so far have the expected hash. Call this once, after the last piece.
+  bool is_met();
+
+ private:
+  struct Free {
+    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
+  };
+
+  BodyChecksum(const EVP_MD* algorithm, std::string expected);
+
+  std::unique_ptr<EVP_MD_CTX, Free> context_;
+  std::string expected_;
+};
+
+}  // namespace vitrine::server

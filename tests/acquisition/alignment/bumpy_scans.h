@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scans of shapes whose surface is known: star-shaped about the origin, seen from above in several
+// poses.
+#pragma once
+
+#include <functional>
+
+#include "acquisition/alignment/scan_pair.h"
+
+namespace vitrine::acquisition {
+
+// Returns the distance of the surface from the origin, in mm, in a direction (a unit vector).
+using Radius = std::function<double(const Vec3& direction)>;
+
+// Bumps that make every pose unique; about 20 mm.
+double bumpy(const Vec3& direction);
+// A body of revolution about z with mouldings.
+double vase(const Vec3& direction);
+// A cube with an edge of 30 mm.
+double cube(const Vec3& direction);
+
+RigidMotion rotation_about(const Vec3& axis, double degrees, const Vec3& shift = {});
+
+// Returns the scan of the shape after it was moved by `pose`: the directions whose z is at least
+// `from` after the rotation of the pose. Light comes and goes radially.
+PoseScan scan_of(const Radius& radius, const RigidMotion& pose, double from,
+                 const std::string& name = "scan");
+
+}  // namespace vitrine::acquisition

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The strongest competitor of a progressive model: a ladder of separate files, each with fewer
+// faces and smaller pictures. meshoptimizer simplifies the source with its own texture coordinates;
+// Draco codes the result; the pictures are masked WebP.
+#pragma once
+
+#include <vector>
+
+#include "masked_pictures.h"
+#include "state_grid.h"
+#include "wedge_mesh.h"
+
+namespace vitrine::bench {
+
+// The geometry of a state is a rung, from 1 % to all faces. Its pictures are those of base colours,
+// or those and the normal maps, all with the same side. Pictures that the renderer does not show
+// are left out.
+class DiscreteLadder {
+ public:
+  // `bits` are those per coordinate of the finest rung. Coarser rungs have fewer.
+  DiscreteLadder(const TexturedModel& model, int bits);
+
+  double ssim(const AppearanceReference& reference, const ModelState& state) const;
+
+  // Bytes of single files: each state is fetched alone.
+  StateBytes single_files() const;
+  // Bytes of a client that fetches every rung up to that of the state, and every size of its
+  // pictures, one after the other.
+  StateBytes one_after_the_other() const;
+
+ private:
+  using Sizes = std::vector<SizedPicture>;  // ascending
+  std::vector<Picture> pictures_of(std::size_t set) const;
+  std::vector<double> picture_bytes(bool has_smaller) const;
+
+  Texturing texturing_;  // without faces and pictures
+  std::vector<FacedMesh> rungs_;
+  std::vector<double> rung_bytes_;
+  std::vector<std::uint32_t> colours_, normals_;  // numbers of the pictures
+  std::vector<Sizes> sizes_;                      // per picture; empty if it is not shown
+  std::size_t steps_ = 0;                         // number of sizes
+};
+
+}  // namespace vitrine::bench

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of a source as WebP files, for the peers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "textured_model.h"
+
+namespace vitrine::bench {
+
+inline constexpr int kPictureQuality = 80;        // as of our coarse pictures
+inline constexpr std::uint32_t kLeastSide = 256;  // of a peer's smallest picture
+
+struct SizedPicture {
+  std::uint32_t side = 0;  // pixels
+  std::vector<std::uint8_t> file;
+};
+
+// Returns picture number `picture` of a model and smaller ones, each with half the side of the
+// next, down to kLeastSide; the smallest first. Texels outside all charts are filled smoothly, as
+// in our pictures. Fails if the picture is not square.
+std::vector<SizedPicture> masked_pictures(const TexturedModel& model, std::uint32_t picture);
+
+// Returns picture number `picture` of a model as it is.
+std::vector<std::uint8_t> unmasked_picture(const TexturedModel& model, std::uint32_t picture);
+
+// Returns the numbers of the pictures that some material uses, for one of these maps.
+std::vector<std::uint32_t> used_pictures(const Texturing& texturing,
+                                         std::span<const MapOfMaterial> maps);
+
+}  // namespace vitrine::bench

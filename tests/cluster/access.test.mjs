@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks every route of the OpenAPI document as every role, for models in every state, on two daemons that share a
+// PostgreSQL catalogue and a Ceph bucket. One daemon, which drives a simulated scanner, makes and changes the model.
+// Nothing that the model then hides may come out of either, and both must give the same statuses. Prints the access
+// matrix. run.sh starts this test.
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { randomBytes } from "node:crypto";
+import { once } from "node:events";
+import { mkdir, mkdtemp, rm, writeFile } from "node:fs/promises";
+import http from "node:http";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { setTimeout as pause } from "node:timers/promises";
+import { promisify } from "node:util";
+import { firstRig } from "./rigs.mjs";
+import { env } from "../e2e/daemon.mjs";
+import { freePort } from "../e2e/nginx.mjs";
+import { Gateway, Postgres } from "./backends.mjs";
+import { relief } from "./meshes.mjs";
+import { Replica } from "./replica.mjs";
+import { Secrets } from "./secrets.mjs";
+
+const bin = process.env.VITRINE_BIN;
+const kBinary = ["glb", "ply", "stl", "drc"]; // other formats have numbers as text, which the manifest may have, too
+const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl"];
+const kRoles = ["none", "viewer", "operator", "admin"];
+const kPages = ["/", "/models/{id}", "/docs", "/console"];
+const kSide = 30; // vertices per side of the mesh
+const kSteps = 8; // number of turntable steps per scan
+const kPoses = 12; // number of target poses of the calibration
+const postgres = new Postgres(), gateway = new Gateway();
+const matrix = new Map();
+let folder, replicas, tokens, routes, states = 0;
+
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), "vitrine-access-"));
+  await Promise.all([postgres.start(), gateway.start(), mkdir(join(folder, "uploads"))]);
+  const { access, secret } = Gateway.keys, conf = join(folder, "vitrine.conf");
+  await writeFile(conf, `data = ${folder}/command
+uploads = ${folder}/uploads
+store = ${gateway.url}
+store-access-key = ${access}
+store-secret-key = ${secret}
+catalogue = ${postgres.url}
+request-rate = 0
+max-connections-per-address = 0
+`);
+  tokens = { none: undefined };
+  for (const role of kRoles.slice(1)) tokens[role] = await token(role, conf);
+  replicas = await Promise.all([replica("first", conf, firstRig), replica("second", conf)]);
+  await Promise.all(replicas.map((one) => one.ready()));
+  routes = await routesOf(replicas[0]);
+  while ((await ask(replicas[0], "GET", "/api/v1/scanners/rig", "operator")).status !== 200) await pause(100);
+  const { job } = await json(replicas[0], "POST", "/scanners/rig/calibrations", "operator", { poses: kPoses });
+  await ended(job);
+});
+
+after(async () => {
+  await Promise.all(replicas.map((one) => one.end()));
+  await Promise.all([postgres.end(), gateway.end()]);
+  await rm(folder, { recursive: true, force: true });
+});
+
+async function token(role, conf) {
+  const { stdout } = await promisify(execFile)(join(bin, "vitrine"), ["token", "create", "--role", role, "--data", conf, "--json"], { env });
+  return JSON.parse(stdout).token;
+}
+
+/** Starts a daemon that, if given a `rig`, drives it. */
+async function replica(name, conf, rig) {
+  await mkdir(join(folder, name));
+  const port = await freePort(), words = ["--config", conf, "--roles", rig ? "serve,build,scan" : "serve,build"];
+  if (rig) words.push("--scanners", rig.config, "--scan-address", `http://127.0.0.1:${port}`);
+  return new Replica(name, bin, join(folder, name), port, words, rig?.env);
+}
+
+/** Returns all routes as {method, path, role}. */
+async function routesOf(one) {
+  const { paths } = JSON.parse((await ask(one, "GET", "/api/v1/openapi.json")).body);
+  const documented = Object.entries(paths).flatMap(([path, calls]) => Object.entries(calls).map(([method, call]) =>
+    ({ method: method.toUpperCase(), path, role: call["x-role"] ?? "none" })));
+  return [...documented.filter(({ method, path }) => method !== "OPTIONS" && !path.endsWith("/stream")),
+          ...kPages.map((path) => ({ method: "GET", path, role: "none" }))];
+}
+
+async function ask({ port }, method, path, role = "none", body, more = {}) {
+  const headers = { ...(tokens[role] && { Authorization: `Bearer ${tokens[role]}` }), ...(body && { "Content-Type": "application/json" }), ...more };
+  const request = http.request({ host: "127.0.0.1", port, method, path, headers, agent: false });
+  request.end(body);
+  const [response] = await once(request, "response");
+  return { status: response.statusCode, headers: response.headers, body: Buffer.concat(await response.toArray()) };
+}
+
+async function json(one, method, path, role, value) {
+  const { status, body } = await ask(one, method, `/api/v1${path}`, role, value && JSON.stringify(value));
+  assert.ok(status < 300, `${method} ${path}: ${status} ${body}`);
+  return body.length > 0 ? JSON.parse(body) : undefined;
+}
+
+/** Waits for the end of a job. Returns its model. */
+async function ended(job) {
+  await ask(replicas[0], "GET", `/api/v1/jobs/${job}/events`, "operator"); // ends with the job
+  const { state, model, error } = await json(replicas[0], "GET", `/jobs/${job}`, "operator");
+  assert.equal(state, "done", error);
+  return model;
+}
+
+/** Makes a model of a mesh, by an upload to the first daemon. Returns {model, job}. */
+async function upload(number, order) {
+  const mesh = relief(number, kSide), tus = { "Tus-Resumable": "1.0.0" };
+  const { headers } = await ask(replicas[0], "POST", "/api/v1/uploads", "operator", undefined, { ...tus, "Upload-Length": mesh.length });
+  const sent = { ...tus, "Upload-Offset": 0, "Content-Type": "application/offset+octet-stream", "Content-Length": mesh.length };
+  assert.equal((await ask(replicas[0], "PATCH", headers.location, "operator", mesh, sent)).status, 204);
+  const { job } = await json(replicas[0], "POST", "/models", "operator", { upload: headers.location.split("/").pop(), metadata: { title: "Relief" }, ...order });
+  return { model: await ended(job), job };
+}
+
+/** Makes a model by a scan. Returns {model, job, scan}. */
+async function scan(number, order) {
+  const { id, job } = await json(replicas[0], "POST", "/scans", "operator", { scanner: "rig", steps: kSteps, metadata: { title: "Scan" }, ...order });
+  return { model: await ended(job), job, scan: id };
+}
+
+const manifestOf = (one, model, role) => ask(one, "GET", `/api/v1/models/${model}/manifest`, role);
+
+/**
+ * Returns the bytes that show a model at a level, or at its finest one: exports and, of the finest level, chunks and the
+ * poster, unless another poster, which shares bytes with it, is public.
+ */
+async function pictured(model, level, hasPoster = false) {
+  const query = level === undefined ? "" : `?level=${level}`, paths = kBinary.map((format) => `/export.${format}${query}`);
+  const chunks = level === undefined ? JSON.parse((await manifestOf(replicas[0], model, "admin")).body).chunks : [];
+  if (hasPoster) paths.push("/poster.png?width=240");
+  if (level === undefined) paths.push(...chunks.map(({ sha256 }) => `/chunks/${sha256}`));
+  const answers = await Promise.all(paths.map((path) => ask(replicas[0], "GET", `/api/v1/models/${model}${path}`, "admin")));
+  answers.forEach(({ status }, i) => assert.equal(status, 200, paths[i]));
+  return { bytes: answers.map(({ body }) => withoutText(body)), names: chunks.map(({ sha256 }) => sha256) };
+}
+
+/** Returns the points and the profile of a model's scan, if it is scanned. */
+async function measuredBy({ scan }) {
+  const paths = scan ? [`/scans/${scan}/points`, `/scans/${scan}/profile`] : [];
+  const answers = await Promise.all(paths.map((path) => ask(replicas[0], "GET", `/api/v1${path}`, "admin")));
+  answers.forEach(({ status, body }, i) => assert.ok(status === 200 && body.length > 16, paths[i]));
+  return { bytes: answers.map(({ body }) => body) };
+}
+
+/** Returns a file without the JSON of a GLB, whose words are no secret. */
+function withoutText(file) {
+  return file.subarray(0, 4).toString() === "glTF" ? file.subarray(20 + file.readUInt32LE(12)) : file;
+}
+
+/** Waits until the second daemon shows visitors the same model as the first one, which a daemon may take a second for. */
+async function agree(model) {
+  const seen = ({ status, headers }) => `${status} ${status === 200 ? headers.etag : ""}`;
+  for (;;) {
+    const [first, second] = await Promise.all(replicas.map((one) => manifestOf(one, model, "none")));
+    if (seen(first) === seen(second)) return first.status;
+  }
+}
+
+/** Returns the paths of a route in which each parameter has all of its `values`. */
+function expanded(path, values) {
+  const name = path.match(/\{(\w+)\}/)?.[1];
+  if (!name) return [path];
+  assert.ok(values[name], `${path}: add the new parameter to this test`);
+  return values[name].flatMap((value) => expanded(path.replace(`{${name}}`, value), values));
+}
+
+function queries(path, model) {
+  if (/export|manifest$/.test(path)) return ["", "?level=highest"];
+  if (path.endsWith("/poster.png")) return ["?width=240"];
+  if (path === "/api/v1/models") return ["", "?drafts=true"];
+  return path.endsWith("/oembed") ? [`?url=http://localhost/models/${model}`] : [""];
+}
+
+/** Asks one daemon for a route as one role, for all values of its parameters. Returns the statuses. */
+async function walk(one, { method, path, role: least }, role, { state, made, names, secrets }) {
+  const may = kRoles.indexOf(role) >= kRoles.indexOf(least), statuses = [];
+  if (may && method !== "GET") return statuses; // this would change the model
+  const ids = [made.model, made.job, "01arz3ndektsv4rrffq69g5fav", ...(made.scan ? [made.scan] : [])];
+  for (const expansion of expanded(path, { id: ids, sha256: names, format: kFormats, name: ["rig"], number: ["1"] })) {
+    for (const query of queries(path, made.model)) {
+      const { status, body } = await ask(one, method, expansion + query, role), request = `${state}: ${role} ${method} ${expansion}${query}`;
+      assert.ok(status < 500, `${request}: ${status} ${body}`);
+      assert.ok(may ? role === "none" || status !== 403 : status === (role === "none" ? 401 : 403), `${request}: ${status}`);
+      assert.ok(role !== "none" || !secrets.areIn(body), `${request} gives what is hidden`);
+      statuses.push(status);
+    }
+  }
+  return statuses;
+}
+
+/** Returns the bytes that a visitor's stream of a model brings with its head and all levels. */
+async function streamed({ port }, model) {
+  const headers = { Connection: "Upgrade", Upgrade: "websocket", "Sec-WebSocket-Version": "13", "Sec-WebSocket-Protocol": "pmesh.v1",
+                    "Sec-WebSocket-Key": randomBytes(16).toString("base64") };
+  const request = http.get({ host: "127.0.0.1", port, path: `/api/v1/models/${model}/stream?head=true`, headers });
+  const socket = await new Promise((resolve) => request.once("upgrade", (_, opened) => resolve(opened)).once("response", () => resolve(undefined)));
+  if (!socket) return Buffer.alloc(0);
+  for (const message of [{ type: "ack", bytes: 16777216 }, { type: "want", level: 255 }]) {
+    const text = Buffer.from(JSON.stringify(message));
+    socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | text.length, 0, 0, 0, 0]), text]));
+  }
+  const parts = [];
+  for await (const part of socket) if (parts.push(part) && Buffer.concat(parts.slice(-2)).includes('"done"')) break;
+  return Buffer.concat(parts);
+}
+
+const change = (path, value) => ({ model }) => json(replicas[0], value ? "PATCH" : "POST", `/models/${model}${path}`, "operator", value);
+const cap = change("", { public_max_level: 0 });
+const replace = async ({ model }) => upload(100 + states, { replace: model });
+
+// Each state: its name, the order that makes the model, the change, the status for visitors, and what is public after it:
+// all, level 0, or nothing. A scan's points and profiles are public only if all of its own model is.
+const kStates = [
+  ["published", { publish: true }, () => undefined, 200, "all"],
+  ["in cm", { publish: true }, change("", { unit: "cm" }), 200, "all"],
+  ["capped", { publish: true }, cap, 200, 0],
+  ["replaced", { publish: true }, replace, 200, "all"],
+  ["capped, replaced", { publish: true }, async (made) => {
+    await cap(made);
+    await replace(made);
+  }, 200, 0],
+  ["withdrawn", { publish: true }, change("/unpublish"), 404, "none"],
+  ["a draft", { publish: false }, () => undefined, 404, "none"],
+  ["removed", { publish: true }, ({ model }) => json(replicas[0], "DELETE", `/models/${model}`, "operator"), 404, "none"],
+];
+
+const kScanned = ["published", "capped", "replaced", "withdrawn"];
+
+for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row) => [upload, row]),
+                                                            ...kStates.filter(([name]) => kScanned.includes(name)).map((row) => [scan, row])]) {
+  const subject = make === scan ? "the scan's model" : "the model";
+  test(`${subject} gives nothing that it hides if it is ${state}`, async () => {
+    const made = await make(++states, order), secrets = new Secrets();
+    await agree(made.model);
+    const hidesPoster = typeof shown !== "number";
+    const old = await pictured(made.model, undefined, hidesPoster);
+    await Promise.all(replicas.map((one) => streamed(one, made.model))); // now both daemons have it in memory
+    const measured = await measuredBy(made);
+    await enter(made);
+    assert.equal(await agree(made.model), status);
+    const now = state === "removed" ? old : await pictured(made.model, undefined, hidesPoster);
+    for (const { bytes } of [old, now, measured]) bytes.forEach((part) => secrets.hide(part));
+    const open = shown === "all" ? now : shown === "none" ? { bytes: [] } : await pictured(made.model, shown);
+    open.bytes.forEach((part) => secrets.reveal(part));
+    secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/`)); // exports state their source
+    if (state === "published") measured.bytes.forEach((part) => secrets.reveal(part));
+    assert.ok(state === "published" || state === "in cm" || secrets.size > 100, "nothing is hidden, so this test proves nothing");
+    const visit = { state: `${subject} is ${state}`, made, secrets, names: [...new Set([...old.names, ...now.names])] };
+    for (const route of routes) await walkAll(route, visit);
+    for (const one of replicas) assert.ok(!secrets.areIn(await streamed(one, made.model)), "the stream gives what is hidden");
+  });
+}
+
+async function walkAll(route, visit) {
+  for (const role of states === 1 ? kRoles : ["none"]) { // only visitors see less if the model is in another state
+    const [first, second] = await Promise.all(replicas.map((one) => walk(one, route, role, visit)));
+    assert.deepEqual(second, first, `${visit.state}: ${role} ${route.method} ${route.path}`);
+    const row = `${route.method} ${route.path}`, column = role === "none" ? `visitor; ${visit.state}` : role;
+    if (!matrix.has(row)) matrix.set(row, new Map());
+    if (first.length > 0) matrix.get(row).set(column, Math.min(...first, matrix.get(row).get(column) ?? 999));
+  }
+}
+
+test("the access matrix", () => {
+  const columns = [...new Set([...matrix.values()].flatMap((row) => [...row.keys()]))].sort();
+  columns.forEach((name, i) => console.log(`[${i + 1}] ${name}`));
+  for (const [route, row] of matrix) console.log(route.padEnd(66) + columns.map((name) => String(row.get(name) ?? "").padStart(5)).join(""));
+  assert.ok(matrix.size >= 40);
+});

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/other_files.h"
+
+#include "codec/import/reading.h"
+#include "support/packages/write_package.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using vitrine::testing::bytes_of;
+using vitrine::testing::refusal;
+
+std::string zip_with(const std::string& name) {
+  return test::zip_of({{name, "contents"}});
+}
+
+struct NamedFile {
+  std::string start, name, step;
+};
+
+TEST(OtherFiles, EachKindIsNamedWithItsNextStep) {
+  const std::string nothing(600, '\0');
+  const std::vector<NamedFile> files{
+      {zip_with("scene.usdc"), "a USDZ package: ", "Blender"},
+      {zip_with("[Content_Types].xml"), "a Word, Excel or PowerPoint document: ", "GLB"},
+      {"PK\5\6" + nothing, "an empty ZIP package: ", "pack it again"},
+      {"7z\xBC\xAF\x27\x1C" + nothing, "a 7z package: ", "unpack it"},
+      {"Rar!\x1A\x07" + nothing, "a RAR package: ", "unpack it"},
+      {"Kaydara FBX Binary  ", "an FBX file: ", "Blender"},
+      {"; FBX 7.3.0 project file\n", "an FBX file: ", "Blender"},
+      {"BLENDER-v300", "a Blender file: ", "GLB"},
+      {"PXR-USDC", "a USD file: ", "Blender"},
+      {"#usda 1.0\n", "a USD file: ", "Blender"},
+      {"#VRML V2.0 utf8\n", "a VRML file: ", "MeshLab"},
+      {"MM" + bytes_of<std::uint32_t>({12}) + "abcdef", "a 3D Studio file", "Blender"},
+      {"ISO-10303-21;\nHEADER;", "a STEP file: ", "FreeCAD"},
+      {std::string(72, ' ') + "S      1\n", "an IGES file: ", "FreeCAD"},
+      {"  0\r\nSECTION\r\n  2\r\n", "a DXF drawing: ", "GLB, OBJ or STL"},
+      {"ASTM-E57" + nothing, "an E57 point cloud: ", "mesh it"},
+      {"LASF" + nothing, "a LAS or LAZ point cloud: ", "mesh it"},
+      {"1.5 2 3 255 0 0\n1 2 4 0 0 0\n1 2 5 0 0 0\n", "a list of points: ", "mesh it"},
+      {"<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"\">", "a COLLADA file (DAE): ", "Blender"},
+      {"<?xml version=\"1.0\"?>\n<X3D>", "an X3D file: ", "MeshLab"},
+      {"<?xml version=\"1.0\"?>\n<a/>", "an XML file: ", "OBJ"},
+      {"\n<!DOCTYPE html>\n<html>", "a web page: ", "download the model"},
+      {"<html>", "a web page: ", "download the model"},
+      {"\xFF\xD8\xFF\xE0" + nothing, "a JPEG picture: ", ".mtl"},
+      {"\x89PNG\r\n\x1a\n", "a PNG picture: ", ".mtl"},
+      {"BM" + bytes_of<std::uint32_t>({99, 0, 54}), "a BMP picture: ", ".mtl"},
+      {std::string("II+\0\b\0", 6), "a BigTIFF picture: ", ".mtl"},
+      {std::string("MM\0+\0\b", 6), "a BigTIFF picture: ", ".mtl"},
+      {"%PDF-1.7\n", "a PDF document: ", "GLB"},
+      {"# Blender MTL\nnewmtl a\nKd 1 1 1\n", "a material library: ", ".obj"},
+      {"version https://git-lfs.github.com/spec/v1\n", "a placeholder of Git LFS: ", "pull"},
+      {std::string("\xFF\xFEv\0 \0", 6), "text in UTF-16: ", "UTF-8"},
+      {"QC4DC4D6" + nothing, "a Cinema 4D file: ", "GLB, OBJ or STL"},
+      {"//Maya ASCII 2024 scene", "a Maya file: ", "GLB, OBJ or STL"},
+      {"FOR8", "a Maya file: ", "GLB, OBJ or STL"},
+      {"\xD0\xCF\x11\xE0" + nothing, "a file of 3ds Max, SolidWorks or Office: ", "GLB"},
+      {"\xD0\xCF\x11\xE0" + nothing + std::string("C\0l\0a\0s\0s\0D\0i\0r\0e\0c\0t\0o\0r\0y", 27),
+       "a 3ds Max file: ", "GLB, OBJ or STL"},
+      {"\xD0\xCF\x11\xE0" + nothing + std::string("W\0o\0r\0d\0D\0o\0c\0u\0m\0e\0n\0t\0", 24),
+       "a Word document: ", "the model itself"},
+      {"\xFF\xFE\xFF\x0ES", "a SketchUp file: ", "GLB, OBJ or STL"},
+      {"3D Geometry File Format ", "a Rhino file: ", "GLB, OBJ or STL"},
+      {"ISO-10303-21;\nFILE_SCHEMA(('IFC4'));", "an IFC model of a building: ", "FreeCAD"},
+      {"# .PCD v0.7 - Point Cloud Data", "a PCD point cloud: ", "mesh it"},
+      {"2\n3\n0 0 0\n1 0 0\n0 1 0\n", "a list of points: ", "mesh it"},
+      {"x,y,z\n0,0,1\n1,0,1\n0,1,1\n", "a list of points: ", "mesh it"},
+      {"//X Y Z R G B\n0 0 1 9 9 9\n1 0 1 9 9 9\n1 1 1 9 9 9", "a list of points: ", "mesh it"},
+      {std::string(128, '\0') + "DICM" + nothing, "a DICOM file: ", "3D Slicer"},
+      {"# vtk DataFile Version 3.0\n", "a VTK file: ", "ParaView"},
+      {"#X3D V3.3 utf8", "an X3D file: ", "MeshLab"},
+      {"b3dm" + nothing, "a tile of 3D Tiles: ", "GLB"}};
+  for (const NamedFile& file : files) {
+    EXPECT_THAT(refusal(file.start),
+                AllOf(StartsWith("this is " + file.name), HasSubstr(file.step)));
+  }
+}
+
+TEST(OtherFiles, TheNameCountsIfTheBytesDoNotTellTheKind) {
+  const auto named = [](const std::string& bytes, const std::string& name) {
+    const auto result = read_mesh(testing::as_bytes(bytes), {.name = name});
+    return result ? "" : result.error().message;
+  };
+  EXPECT_THAT(named("\1\2\3", "a/Bust.ZTL"), StartsWith("this is a ZBrush file: "));
+  EXPECT_THAT(named("\xD0\xCF\x11\xE0", "a.sldprt"), StartsWith("this is a SolidWorks file: "));
+  EXPECT_THAT(named("%PDF-1.7", "a.ztl"), StartsWith("this is a PDF document: "));
+  EXPECT_THAT(named("\1\2\3", "a.stl"), StartsWith("not a mesh file that Vitrine reads"));
+  EXPECT_THAT(named(test::zip_of({{"a.ztl", "\1"}}), "b.zip"),
+              StartsWith("'a.ztl' in the package: this is a ZBrush file: "));
+}
+
+TEST(OtherFiles, UnknownBytesAreNotNamed) {
+  for (const std::string bytes : {"", "B", "BM", "MM", "PK", "Dear museum, 1 2 3", "1 2 3\n"})
+    EXPECT_FALSE(describe_other_file(testing::as_bytes(bytes)).has_value()) << bytes;
+}
+
+}  // namespace
+}  // namespace vitrine

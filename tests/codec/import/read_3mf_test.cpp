@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests 3MF packages as slicers and CAD programs write them.
+#include "codec/import/reading.h"
+#include "support/packages/write_package.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using vitrine::test::FilesToPack;
+using vitrine::test::zip_of;
+using vitrine::testing::read_text;
+using vitrine::testing::refusal;
+
+constexpr const char* kTriangle =
+    "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/>"
+    "<vertex x=\"0\" y=\"0\" z=\"2\"/></vertices>"
+    "<triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh>";
+
+std::string object(const std::string& id, const std::string& contents,
+                   const std::string& attributes = "") {
+  return "<object id=\"" + id + "\" " + attributes + ">" + contents + "</object>";
+}
+
+std::string part(const std::string& resources, const std::string& items,
+                 const std::string& attributes = "unit=\"millimeter\"") {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model " + attributes +
+         " xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
+         "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" "
+         "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\"><resources>" +
+         resources + "</resources><build>" + items + "</build></model>";
+}
+
+std::string package(const std::string& root, const FilesToPack& more = {}) {
+  FilesToPack files{{"[Content_Types].xml", "<?xml version=\"1.0\"?><Types/>"},
+                    {"_rels/.rels", "<?xml version=\"1.0\"?><Relationships/>"},
+                    {"3D/3dmodel.model", root}};
+  files.insert(files.end(), more.begin(), more.end());
+  return zip_of(files);
+}
+
+const std::string kItem = "<item objectid=\"1\"/>";
+
+TEST(Read3mf, ATriangleIsTurnedSoThatYIsUp) {
+  const ImportedMesh read = read_text(package(part(object("1", kTriangle), kItem)));
+  EXPECT_EQ(read.mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}));
+  EXPECT_THAT(read.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_EQ(read.unit, "mm");
+  EXPECT_THAT(read.repairs, ElementsAre());
+}
+
+TEST(Read3mf, UnitsAreKeptOrConverted) {
+  const auto height_in = [](const std::string& attributes, const std::string& unit) {
+    const ImportedMesh read = read_text(package(part(object("1", kTriangle), kItem, attributes)));
+    EXPECT_EQ(read.unit, unit) << attributes;
+    return read.mesh.positions.at(2).y;
+  };
+  EXPECT_EQ(height_in("unit='inch'", "in"), 2);
+  EXPECT_EQ(height_in("unit=\"meter\"", "m"), 2);
+  EXPECT_EQ(height_in("unit=\"foot\"", "in"), 24);
+  EXPECT_DOUBLE_EQ(height_in("unit=\"micron\"", "mm"), 0.002);
+  EXPECT_EQ(height_in("", "mm"), 2);
+}
+
+TEST(Read3mf, ComponentsAreRepeatedAndMoved) {
+  const std::string both =
+      "<components><component objectid=\"1\"/>"
+      "<component objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 10 0 5\"/></components>";
+  const ImportedMesh read = read_text(
+      package(part(object("1", kTriangle) + object("2", both), "<item objectid=\"2\"/>")));
+  EXPECT_EQ(read.mesh.positions.at(4), (Vec3{9, 5, 0}));
+  EXPECT_THAT(read.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{3, 5, 4}));
+}
+
+TEST(Read3mf, ObjectsInOtherPartsAreFound) {
+  const std::string root =
+      part(object("8",
+                  "<components><component p:path=\"/3D/Objects/object_1.model\" objectid=\"1\"/>"
+                  "</components>"),
+           "<item objectid=\"8\" p:UUID=\"x\"/>");
+  const FilesToPack parts{{"3D/Objects/object_1.model", part(object("1", kTriangle), "")}};
+  EXPECT_THAT(read_text(package(root, parts)).mesh.faces, SizeIs(1));
+  EXPECT_THAT(refusal(package(root)), HasSubstr("lacks its part '/3D/Objects/object_1.model'"));
+}
+
+TEST(Read3mf, ColoursOfMaterialsAndGroups) {
+  const std::string groups =
+      "<basematerials id=\"5\"><base name=\"a\" displaycolor=\"#FF0000\"/></basematerials>"
+      "<m:colorgroup id=\"6\"><m:color color=\"#0000FFFF\"/></m:colorgroup>";
+  const ImportedMesh red =
+      read_text(package(part(groups + object("1", kTriangle, "pid=\"5\" pindex=\"0\""), kItem)));
+  EXPECT_EQ(red.mesh.attributes.colours, std::vector(3, Colour{255, 0, 0}));
+  std::string blue = kTriangle;
+  blue.replace(blue.find("v3=\"2\""), 6, "v3=\"2\" pid=\"6\" p1=\"0\"");
+  EXPECT_EQ(read_text(package(part(groups + object("1", blue), kItem))).mesh.attributes.colours,
+            std::vector(3, Colour{0, 0, 255}));
+  EXPECT_THAT(
+      read_text(package(part(object("1", kTriangle, "pid=\"7\" pindex=\"0\""), kItem))).repairs,
+      Contains(HasSubstr("textures of 1 face not carried")));
+}
+
+TEST(Read3mf, ThreeMfInsideAPackageIsFoundByItsName) {
+  const std::string inner = package(part(object("1", kTriangle), kItem));
+  EXPECT_THAT(read_text(zip_of({{"print/bust.3mf", inner}, {"readme.txt", "x"}})).mesh.faces,
+              SizeIs(1));
+  EXPECT_THAT(read_text(zip_of({{"bust.3mf", inner}, {"bust.stl", "solid a"}})).repairs,
+              Contains(HasSubstr("of the 2 files of the model")));
+  EXPECT_THAT(refusal(zip_of({{"a.3mf", inner}, {"b.3mf", inner}})), HasSubstr("2 models"));
+}
+
+TEST(Read3mf, FaultsAreNamed) {
+  const auto fault = [](const std::string& resources) {
+    return refusal(package(part(resources, kItem)));
+  };
+  EXPECT_THAT(fault(""), HasSubstr("lacks its object '1'"));
+  EXPECT_THAT(fault(object("1", "<mesh><vertices><vertex x=\"0\" y=\"\"/></vertices></mesh>")),
+              HasSubstr("vertex 0 of the 3MF lacks a coordinate"));
+  EXPECT_THAT(fault(object("1", "<components><component objectid=\"1\"/></components>")),
+              HasSubstr("in a cycle"));
+  EXPECT_THAT(fault(object("1", "<mesh/>")), HasSubstr("places no object with triangles"));
+  std::string far = kTriangle;
+  far.replace(far.find("v3=\"2\""), 6, "v3=\"3\"");
+  EXPECT_THAT(fault(object("1", far)), HasSubstr("face 0 of the 3MF refers to a vertex"));
+  EXPECT_THAT(refusal(package(part(object("1", kTriangle), kItem) + "<")),
+              HasSubstr("XML is damaged"));
+}
+
+TEST(Read3mf, RepeatedComponentsAreBounded) {
+  std::string resources = object("0", kTriangle);
+  for (int i = 1; i < 12; ++i) {
+    std::string components;
+    for (int k = 0; k < 8; ++k)
+      components += "<component objectid=\"" + std::to_string(i - 1) + "\"/>";
+    resources += object(std::to_string(i), "<components>" + components + "</components>");
+  }
+  EXPECT_THAT(refusal(package(part(resources, "<item objectid=\"11\"/>"))), HasSubstr("too many"));
+}
+
+TEST(Read3mf, CutAndFlippedAtEveryByte) {
+  const std::string xml = part(
+      "<basematerials id=\"5\"><base displaycolor=\"#FF0000\"/></basematerials>" +
+          object("1", kTriangle, "pid=\"5\" pindex=\"0\"") +
+          object("2",
+                 "<components><component objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 1 2 3\"/>"
+                 "</components>"),
+      "<item objectid=\"2\"/>");
+  const auto expect_harmless = [](const std::string& bytes) {
+    const auto read = read_mesh(testing::as_bytes(bytes));
+    EXPECT_THAT(read ? "" : read.error().message, ::testing::Not(HasSubstr("\n")));
+  };
+  for (std::size_t i = 0; i < xml.size(); ++i) {
+    expect_harmless(xml.substr(0, i));
+    for (const int mask : {1, 0xFF}) {
+      std::string flipped = xml;
+      flipped[i] = static_cast<char>(flipped[i] ^ mask);
+      expect_harmless(flipped);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vitrine

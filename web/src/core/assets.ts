@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files that the viewer loads while it runs.
+
+/** Absolute URLs of the files that the viewer loads while it runs. */
+export interface Assets {
+  /** progressive-mesh-worker.js. The scripts that a daemon serves contain the worker and do not use this URL. */
+  worker?: string;
+  wasm: string;
+}
+
+/**
+ * Returns the URLs of the files in this module's folder, replaced by those of `moved`. Bundlers look for `new URL("literal",
+ * import.meta.url)`, copy the file and put its new URL there. The URLs are made at each call, because modules for a server may
+ * have no import.meta.url.
+ */
+export function assetsWith(moved: Partial<Assets>): Assets {
+  return {
+    wasm: moved.wasm ?? new URL("./progressive-mesh.wasm", import.meta.url).href,
+    ...(moved.worker === undefined ? {} : { worker: moved.worker }),
+  };
+}

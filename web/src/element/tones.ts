@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the attributes tone-mapping and exposure, whose values are those of model-viewer.
+import {
+  ACESFilmicToneMapping, AgXToneMapping, CineonToneMapping, LinearToneMapping, NeutralToneMapping, NoToneMapping, ReinhardToneMapping,
+  type ToneMapping,
+} from "three";
+
+export interface ToneWords {
+  mapping: string | null;
+  exposure: string | null;
+}
+
+export interface Tones {
+  mapping: ToneMapping;
+  /** Factor for the brightness. */
+  exposure: number;
+}
+
+const kMappings: Record<string, ToneMapping> = {
+  neutral: NeutralToneMapping, aces: ACESFilmicToneMapping, agx: AgXToneMapping, reinhard: ReinhardToneMapping, cineon: CineonToneMapping,
+  linear: LinearToneMapping, none: NoToneMapping,
+};
+
+/**
+ * Returns how light becomes colour. Without attributes, textured models look as in model-viewer, and the bare form is not mapped.
+ * Missing and malformed values count as not given. `none` ignores the exposure.
+ */
+export function tonesOf({ mapping, exposure }: ToneWords, isTextured: boolean): Tones {
+  const factor = Number(exposure || NaN), hasFactor = Number.isFinite(factor) && factor >= 0;
+  // Linear mapping with exposure 1 changes nothing, but it needs another shader.
+  const unmapped = hasFactor ? LinearToneMapping : NoToneMapping;
+  return { mapping: kMappings[mapping ?? ""] ?? (isTextured ? NeutralToneMapping : unmapped), exposure: hasFactor ? factor : 1 };
+}

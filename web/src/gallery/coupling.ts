@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Couples the cameras of viewers: if the visitor moves one, the others show their objects from the same direction, at the same
+// size relative to their views, and panned alike.
+import type { Unit } from "../ui/api.ts";
+
+export type Viewer = HTMLElement & {
+  getCameraOrbit(): { theta: number; phi: number; radius: number } | undefined;
+  getCameraTarget(): [number, number, number] | undefined;
+};
+
+/** The view without the visitor's movements. */
+interface Home {
+  /** Distance from the target, in model units. */
+  radius: number;
+  target: [number, number, number];
+}
+
+const kMetres: Record<Unit | "", number> = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254, "": 1 };
+
+export class Coupling {
+  readonly #units = new Map<Viewer, Unit | "">();
+  readonly #homes = new Map<Viewer, Home>();
+  readonly #resized = new ResizeObserver(() => this.#goHome());
+
+  /** Adds a viewer, or says that it will show another model. `unit` is that of its model. */
+  set(viewer: Viewer, unit: Unit | ""): void {
+    if (!this.#units.has(viewer)) this.#observe(viewer);
+    this.#units.set(viewer, unit);
+    this.#homes.delete(viewer);
+  }
+
+  #observe(viewer: Viewer): void {
+    viewer.addEventListener("first-paint", () => this.#goHome());
+    viewer.addEventListener("camera-change", (event) => {
+      if ((event as CustomEvent<{ source: string }>).detail.source === "user-interaction") this.#follow(viewer);
+    });
+    this.#resized.observe(viewer);
+  }
+
+  /** Frames all objects, as seen from the front, because the distance that fits depends on the size of the view. */
+  #goHome(): void {
+    for (const viewer of this.#units.keys()) {
+      if (!viewer.getCameraOrbit()) continue;
+      // The second text differs from the first one, so that the viewer obeys it if it has the first one already.
+      for (const orbit of ["auto auto 100%", "auto auto auto"]) viewer.setAttribute("camera-orbit", orbit);
+      viewer.setAttribute("camera-target", "auto auto auto");
+      const orbit = viewer.getCameraOrbit(), target = viewer.getCameraTarget();
+      if (orbit && target) this.#homes.set(viewer, { radius: orbit.radius, target });
+    }
+  }
+
+  #follow(leader: Viewer): void {
+    const orbit = leader.getCameraOrbit(), target = leader.getCameraTarget(), from = this.#homes.get(leader);
+    if (!orbit || !target || !from) return;
+    for (const [viewer, home] of this.#homes) {
+      if (viewer === leader) continue;
+      const scale = home.radius / from.radius, metres = kMetres[this.#units.get(viewer) ?? ""];
+      const moved = home.target.map((value, axis) => (value + scale * ((target[axis] ?? 0) - (from.target[axis] ?? 0))) * metres);
+      viewer.setAttribute("camera-target", moved.map((value) => `${value}m`).join(" "));
+      viewer.setAttribute("camera-orbit", `${orbit.theta}rad ${orbit.phi}rad ${(100 * orbit.radius) / from.radius}%`);
+    }
+  }
+}

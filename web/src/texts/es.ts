@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewer's visible and spoken texts in Spanish.
+import type { ViewerTexts } from "./en.ts";
+import type { Formats } from "./formats.ts";
+
+const units = "unidades";
+
+const sides = {
+  front: "de frente", "front-right": "desde delante a la derecha", right: "desde la derecha", "back-right": "desde detrás a la derecha",
+  back: "desde detrás", "back-left": "desde detrás a la izquierda", left: "desde la izquierda", "front-left": "desde delante a la izquierda",
+};
+const heights = { above: ", desde arriba", level: "", below: ", desde abajo" };
+
+export const es = ({ count, size, length, extent, bound }: Formats): ViewerTexts => ({
+  loading: "Cargando",
+  viewOf: (title) => title || "Modelo tridimensional",
+  keys: "Las flechas giran, más y menos acercan y alejan, Inicio restablece la vista.",
+  noWebGl: "Este navegador no puede mostrar contenido tridimensional (falta WebGL 2).",
+
+  quality: "Detalle",
+  lowest: "Bajo",
+  refine: "Más",
+  highest: "Completo",
+  size,
+  more: (bytes) => `+${size(bytes)}`,
+  complete: "completo",
+  atOnce: "al instante",
+  wait: (seconds) => (seconds < 90 ? `${Math.ceil(seconds)} s` : `${Math.round(seconds / 60)} min`),
+  triangles: (shown, total) => `${count(shown)} de ${count(total)} triángulos`,
+  bytes: (held, total) => `${size(held)} de ${size(total)}`,
+  error: (most, unit) => `error ≤ ${bound(most, unit || units)}`,
+
+  tools: "Herramientas",
+  close: "Cerrar",
+  reset: "Restablecer la vista",
+
+  light: "Luz",
+  museum: "Museo",
+  studio: "Estudio",
+  raking: "Rasante",
+  relief: "Relieve",
+  shadow: "Sombra",
+  rakingFrom: "Dirección de la luz rasante",
+  degrees: (value) => `${count(value)} grados`,
+
+  section: "Sección",
+  sectionOn: "Cortar el modelo",
+  sectionAcross: "Dirección del corte",
+  axes: { x: "Lado", y: "Altura", z: "Profundidad" },
+  sectionAt: "Posición del corte",
+  sectionFlip: "Otra mitad",
+  percent: (fraction) => `${count(100 * fraction)} %`,
+
+  measure: "Medir",
+  measureFirst: "Haga clic en un punto de la superficie, o pulse Intro para tomar el del centro de la imagen.",
+  measureNext: "Ahora el punto siguiente.",
+  measured: (distance, unit) => length(distance, unit || units),
+  measureWhat: "Qué medir",
+  measures: { distance: "Distancia", angle: "Ángulo", area: "Área", profile: "Perfil" },
+  dimensions: "Anchura × altura × profundidad",
+  extent: (x, y, z, unit) => extent([x, y, z], unit || units),
+  measureClear: "Borrar",
+
+  notes: "Notas",
+  noteMarker: (number, title) => `Nota ${number}: ${title}`,
+  notesMissing: "No se pueden cargar las notas.",
+
+  surface: "Superficie",
+  form: "Solo la forma",
+  curvature: "Curvatura",
+  facets: "Facetas",
+  wireframe: "Malla de alambre",
+
+  dragHint: "Arrastre para girar",
+
+  save: "Compartir",
+  screenshot: "Guardar una imagen",
+  link: "Enlace a esta vista",
+  share: "Compartir…",
+  copy: "Copiar",
+  copied: "Enlace copiado.",
+  copyByHand: "El enlace está seleccionado: cópielo con el teclado.",
+  download: "Descargar el modelo",
+  format: "Formato",
+  asShown: (triangles) => `Como se muestra, ${count(triangles)} triángulos`,
+  original: (triangles) => `Completo, ${count(triangles)} triángulos`,
+  coarsest: (triangles) => `Bajo, ${count(triangles)} triángulos`,
+  fileAlone: "El modelo entero (.pmesh)",
+
+  fullScreen: "Pantalla completa",
+
+  seenFrom: (side, height) => `Visto ${sides[side]}${heights[height]}.`,
+  firstShape: (triangles) => `Se muestra la primera forma, ${count(triangles)} triángulos.`,
+  halfway: "Se muestra la mitad del detalle.",
+  reached: (triangles) => `Se muestra el detalle pedido, ${count(triangles)} triángulos.`,
+});
