@@ -18,7 +18,7 @@ class Conversation {
   Expected<void> say(std::string_view line);  // `line` excludes the line feed
   // Returns the next line, or nullopt once `deadline` has passed. After the deadline, ignores even
   // a line that has arrived, because this process may have been suspended and another process may
-  // have used the board since.
+  // have used the board since. For the same reason, take the deadline before say().
   Expected<std::optional<std::string>> hear(SerialPort::Clock::time_point deadline);
   // Discards input until the board has been silent for `quiet`.
   Expected<void> ignore_all(std::chrono::milliseconds quiet);

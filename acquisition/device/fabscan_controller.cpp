@@ -47,10 +47,10 @@ class FabScanController final : public Controller {
 };
 
 Expected<std::string> FabScanController::command(const std::string& line, milliseconds timeout) {
+  const auto deadline = SerialPort::Clock::now() + timeout;
   if (auto said = talk_.say(line); !said) return tl::unexpected(said.error());
   std::string answer;
   bool is_echoed = false;
-  const auto deadline = SerialPort::Clock::now() + timeout;
   while (true) {
     const auto heard = talk_.hear(deadline);
     if (!heard) return tl::unexpected(heard.error());

@@ -75,8 +75,8 @@ Unexpected HorusController::refused(std::string_view line, const horus::Reply& r
 }
 
 Expected<void> HorusController::command(const std::string& line, milliseconds timeout) {
-  if (auto said = talk_.say(line); !said) return said;
   const auto deadline = SerialPort::Clock::now() + timeout;
+  if (auto said = talk_.say(line); !said) return said;
   while (true) {
     const auto heard = talk_.hear(deadline);
     if (!heard) return tl::unexpected(heard.error());
@@ -151,9 +151,9 @@ Expected<std::string> HorusController::greet() {
 }
 
 Expected<double> HorusController::counter() {
+  const auto deadline = SerialPort::Clock::now() + timeout_;
   if (auto said = talk_.port().write({&horus::kAskStatus, 1}); !said)
     return tl::unexpected(said.error());
-  const auto deadline = SerialPort::Clock::now() + timeout_;
   while (true) {
     const auto heard = talk_.hear(deadline);
     if (!heard) return tl::unexpected(heard.error());

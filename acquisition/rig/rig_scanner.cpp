@@ -43,7 +43,8 @@ RigScanner::RigScanner(const RigScannerOptions& options, double degrees)
               .on_turn = [this](double moved) { stage_.turned_to(degrees_ + moved); },
               .on_laser = [this](bool on) { stage_.laser(on); },
               .on_motor = [this](bool on) { stage_.motor(on); },
-              .on_command = [this](std::string_view text) { write_down(text); }}),
+              .on_command = [this](std::string_view text,
+                                   auto submitted) { write_down(text, submitted); }}),
       camera_cable_([this] { camera_->unplug(); }, [this] { report(camera_->plug_in()); }),
       board_cable_([this] { board_.unplug(); }, [this] { report(plug_board()); }) {
   stage_.passes(degrees);
@@ -81,9 +82,10 @@ void RigScanner::keep(double goal) {
   if (!options_.table.empty()) report(write_table(options_.table, goal));
 }
 
-void RigScanner::write_down(std::string_view text) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto at = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+void RigScanner::write_down(std::string_view text,
+                            std::chrono::system_clock::time_point submitted) {
+  const auto since_1970 = submitted.time_since_epoch();
+  const auto at = std::chrono::duration_cast<std::chrono::milliseconds>(since_1970).count();
   std::string shown;
   for (const char c : text)
     shown += c >= ' ' && c < '\x7f' ? std::string(1, c)

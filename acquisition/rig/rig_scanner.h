@@ -2,6 +2,7 @@
 // The simulated scanner: stage, camera, board and faults.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -53,7 +54,7 @@ class RigScanner {
   RigScanner(const RigScannerOptions& options, double degrees);
   Expected<void> plug_board();
   void keep(double goal);
-  void write_down(std::string_view text);
+  void write_down(std::string_view text, std::chrono::system_clock::time_point submitted);
   void turned(int turns);
   Exposed expose(const Exposure& exposure, const SensorRegion& region);
   Delivery delivery(int turns);

@@ -353,7 +353,10 @@ void UsbBoard::Impl::claim(UMockdevIoctlClient* handle, Client& client, bool on)
   complete(context_, handle, 0, 0);
 }
 
+// resolve() waits for the client's process. If that process is suspended meanwhile, its command was
+// submitted before all the same.
 void UsbBoard::Impl::submit(UMockdevIoctlClient* handle, Client& client) {
+  const auto submitted = std::chrono::system_clock::now();
   UsbTransfer transfer;
   transfer.block = resolve(umockdev_ioctl_client_get_arg(handle), 0, sizeof(usbdevfs_urb));
   if (!transfer.block) return complete(context_, handle, -1, EFAULT);
@@ -371,7 +374,7 @@ void UsbBoard::Impl::submit(UMockdevIoctlClient* handle, Client& client) {
   } else {
     const auto bytes = transfer.bytes();
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    events_.on_command(text);
+    events_.on_command(text, submitted);
     firmware_->receive(text, now());
     transfer.finish(0, bytes.size());
   }

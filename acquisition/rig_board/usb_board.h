@@ -4,6 +4,7 @@
 // through umockdev.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -32,8 +33,9 @@ struct UsbBoardEvents {
   // Receives the table's angle, in degrees, at the end of the motion.
   std::function<void(double degrees)> on_turn = [](double) {};
   std::function<void(bool on)> on_laser = [](bool) {}, on_motor = [](bool) {};
-  // Receives each command to the board.
-  std::function<void(std::string_view text)> on_command = [](std::string_view) {};
+  // Receives each command to the board, and when its process submitted it.
+  std::function<void(std::string_view text, std::chrono::system_clock::time_point submitted)>
+      on_command = [](std::string_view, std::chrono::system_clock::time_point) {};
 };
 
 // Restarts this program under umockdev's library if needed. Programs without that library are not

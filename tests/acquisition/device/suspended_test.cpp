@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that a process that was suspended in the middle of a motion's commands does not complete
+// the motion: another process may have used the board since.
+#include <gmock/gmock.h>
+
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "acquisition/device/controller.h"
+
+namespace vitrine::acquisition {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr std::chrono::milliseconds kTimeout{20};
+
+// A port with a board that answers at once. The process is suspended while it writes `fatal`.
+class SuspendedPort : public SerialPort {
+ public:
+  const std::string& name() const override { return name_; }
+  const std::string& serial() const override { return none_; }
+  const std::string& socket() const override { return none_; }
+  Expected<void> write(std::string_view bytes) override {
+    sent.emplace_back(bytes);
+    unread_ += answers(sent.back());
+    if (bytes == fatal) std::this_thread::sleep_for(2 * kTimeout);
+    return {};
+  }
+  Expected<std::string> read(Clock::time_point) override { return std::exchange(unread_, ""); }
+  void cancel() noexcept override {}
+  Expected<void> restart_controller() override { return {}; }
+
+  std::string fatal;
+  std::string (*answers)(const std::string& command) = nullptr;
+  std::vector<std::string> sent;
+
+ private:
+  const std::string name_ = "USB board", none_;
+  std::string unread_;
+};
+
+std::string horus_answer(const std::string& command) {
+  return command == "?" ? "<Idle,MPos:0.000>\n" : "ok\n";
+}
+
+std::string fabscan_answer(const std::string& command) {
+  return command + ">\n";
+}
+
+TEST(SuspendedProcess, DoesNotMoveAHorusTableAfterItHasAskedForThePosition) {
+  SuspendedPort port;
+  port.fatal = "?";
+  port.answers = horus_answer;
+  const auto board = make_horus(port, kTimeout);
+  EXPECT_THAT(board->turn_to(90).error().message, HasSubstr("does not answer '?' in time"));
+  EXPECT_THAT(port.sent, ElementsAre("?"));
+}
+
+TEST(SuspendedProcess, DoesNotMoveAHorusTableAfterItHasSwitchedTheMotorOn) {
+  SuspendedPort port;
+  port.fatal = "M17\n";
+  port.answers = horus_answer;
+  const auto board = make_horus(port, kTimeout);
+  EXPECT_THAT(board->turn_to(90).error().message, HasSubstr("does not answer 'M17' in time"));
+  EXPECT_THAT(port.sent, ElementsAre("?", "M17\n"));
+}
+
+TEST(SuspendedProcess, DoesNotMoveAFabScanTableAfterItHasSwitchedTheMotorOn) {
+  SuspendedPort port;
+  port.fatal = "M17\n";
+  port.answers = fabscan_answer;
+  const auto board = make_fabscan(port, kTimeout, 3200);
+  EXPECT_THAT(board->turn_to(90).error().message, HasSubstr("does not answer 'M17' in time"));
+  EXPECT_THAT(port.sent, ElementsAre("M17\n"));
+}
+
+}  // namespace
+}  // namespace vitrine::acquisition
