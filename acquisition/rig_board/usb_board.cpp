@@ -353,8 +353,8 @@ void UsbBoard::Impl::claim(UMockdevIoctlClient* handle, Client& client, bool on)
   complete(context_, handle, 0, 0);
 }
 
-// resolve() waits for the client's process. If that process is suspended meanwhile, its command was
-// submitted before all the same.
+// Takes the time before resolve(), which waits for the client's process. That process may be
+// suspended in the meantime.
 void UsbBoard::Impl::submit(UMockdevIoctlClient* handle, Client& client) {
   const auto submitted = std::chrono::system_clock::now();
   UsbTransfer transfer;

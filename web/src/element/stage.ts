@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene around one progressive mesh, with camera, light and orbit controls. It draws a frame
 // only if something has changed.
-import { PerspectiveCamera, Scene, Spherical, Vector3, WebGLRenderer, type Texture } from "three";
+import { BufferAttribute, BufferGeometry, Mesh, PerspectiveCamera, Scene, Spherical, Vector3, WebGLRenderer, type Texture } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
 import type { RemoteModel } from "../core/client.ts";
@@ -58,8 +58,23 @@ export class Stage {
     this.mesh.drawBy(this.#renderer);
     for (const type of ["refine", "morph", "picture"] as const) this.mesh.addEventListener(type, () => this.draw());
     this.#scene.add(this.mesh, this.#camera);
-    // Compiles the shader of a model without colours and pictures while the model is on its way.
-    if (!this.mesh.isOpen) this.#renderer.compile(this.#scene, this.#camera);
+    if (!this.mesh.isOpen) this.#warmUp();
+  }
+
+  /**
+   * Draws a triangle without area while the model is on its way. Graphics drivers finish compiling a shader when it is first
+   * drawn with, which would delay the first picture. This is the shader of a model without colours and pictures.
+   */
+  #warmUp(): void {
+    const triangle = new Mesh(new BufferGeometry(), this.mesh.material);
+    triangle.frustumCulled = false;
+    triangle.geometry.setAttribute("position", new BufferAttribute(new Float32Array(9), 3));
+    triangle.geometry.setAttribute("normal", new BufferAttribute(new Int16Array(12), 4, true));
+    triangle.geometry.setIndex(new BufferAttribute(new Uint32Array(3), 1));
+    this.#scene.add(triangle);
+    this.#renderer.render(this.#scene, this.#camera);
+    this.#scene.remove(triangle);
+    triangle.geometry.dispose();
   }
 
   /** The objects that the visitor's tools use (tools/toolbox.ts). */
