@@ -2,6 +2,7 @@
 #include "codec/build/display_fit.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "codec/refine/display_filter.h"
 
@@ -37,7 +38,7 @@ class FaceSampler {
       const VertexId v = level_.connectivity.vertex(3 * face + k);
       const double offset = display_offset(level_.shift);
       at[k] = to_vec3(level_.positions[v]) + Vec3{offset, offset, offset};
-      shift[k] = display_shift(level_, v);
+      shift[k] = shift_of(v);
     }
     const Vec3 area = cross(at[1] - at[0], at[2] - at[0]);
     const double size = length(area);
@@ -49,6 +50,13 @@ class FaceSampler {
   }
 
  private:
+  // Faces share vertices, and the ring of one vertex may be as large as the mesh.
+  Vec3 shift_of(VertexId v) {
+    const auto [known, is_new] = shifts_.try_emplace(v);
+    if (is_new) known->second = display_shift(level_, v);
+    return known->second;
+  }
+
   void add_point(const Vec3& p, const Vec3& shift, const Vec3& normal, double weight, Fit& fit) {
     const Vec3 model = lattice_.origin + p * lattice_.step;
     const double bound = squared_distance(original_.triangle(nearest_), model);
@@ -62,6 +70,7 @@ class FaceSampler {
   const MeshState& level_;
   const Lattice& lattice_;
   const TriangleBvh& original_;
+  std::unordered_map<VertexId, Vec3> shifts_;  // results of display_shift()
   std::uint32_t nearest_ = 0;  // the original's triangle nearest to the previous point
 };
 
