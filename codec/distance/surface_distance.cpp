@@ -5,14 +5,11 @@
 #include <cmath>
 #include <string>
 
-#include "codec/distance/rigid_alignment.h"
 #include "codec/distance/surface_sampler.h"
 #include "codec/mesh/triangle_bvh.h"
 
 namespace vitrine::inline codec {
 namespace {
-
-constexpr std::size_t kAlignSamples = 5'000;
 
 Expected<void> check(const TriangleMesh& mesh, const char* name) {
   if (mesh.faces.empty()) {
@@ -53,28 +50,16 @@ double diagonal(const TriangleBvh::Node& n) {
                  static_cast<double>(n.high[2]) - n.low[2]});
 }
 
-TriangleMesh moved(TriangleMesh mesh, const TriangleBvh& from, const TriangleBvh& onto,
-                   std::uint64_t seed) {
-  std::vector<Vec3> points;
-  for (const SurfaceSample& s : sample_surface(from, kAlignSamples, seed)) {
-    points.push_back(s.point);
-  }
-  const RigidMotion motion = align(points, onto);
-  for (Vec3& p : mesh.positions)
-    p = motion(p);
-  return mesh;
-}
-
 }  // namespace
+
+Expected<void> check_measurable(const TriangleMesh& a, const TriangleMesh& b) {
+  return check(a, "A").and_then([&] { return check(b, "B"); });
+}
 
 Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
                                   const MeasureOptions& options) {
-  if (auto ok = check(a, "A"); !ok) return tl::unexpected(ok.error());
-  if (auto ok = check(b, "B"); !ok) return tl::unexpected(ok.error());
-  TriangleBvh from(a);
-  const TriangleBvh to(b);
-  if (options.aligns) from = TriangleBvh(moved(a, from, to, options.seed));
-
+  if (auto ok = check_measurable(a, b); !ok) return tl::unexpected(ok.error());
+  const TriangleBvh from(a), to(b);
   SurfaceDistance out{.a_to_b = one_way(from, to, options), .b_to_a = one_way(to, from, options)};
   out.rms = std::max(out.a_to_b.rms, out.b_to_a.rms);
   out.max = std::max(out.a_to_b.max, out.b_to_a.max);

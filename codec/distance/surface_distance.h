@@ -14,7 +14,6 @@ namespace vitrine::inline codec {
 struct MeasureOptions {
   std::size_t samples = 200'000;  // samples per surface, at least 1
   std::uint64_t seed = 1;
-  bool aligns = false;  // whether A is first moved to fit B
 };
 
 struct OneWayDistance {
@@ -28,14 +27,18 @@ struct SurfaceDistance {
   OneWayDistance a_to_b, b_to_a;
 };
 
+// Fails (kBadInput) if a mesh has no face or a face index is out of range. `a` and `b` are called A
+// and B in the message.
+Expected<void> check_measurable(const TriangleMesh& a, const TriangleMesh& b);
+
 // Samples each surface uniformly by area and finds the closest point on the other surface. Fails
-// (kBadInput) if a mesh has no face or a face index is out of range.
+// like check_measurable().
 Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
                                   const MeasureOptions& options = {});
 
 // Returns the larger rms distance of the two directions. Takes bounding volume hierarchies, so that
-// a caller who measures a surface several times builds each only once. Ignores `options.aligns`.
-// Both surfaces must have at least one face.
+// a caller who measures a surface several times builds each only once. Both surfaces must have at
+// least one face.
 double rms_distance(const TriangleBvh& a, const TriangleBvh& b, const MeasureOptions& options = {});
 
 }  // namespace vitrine::inline codec

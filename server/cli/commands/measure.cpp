@@ -2,15 +2,19 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "codec/appearance/appearance.h"
+#include "codec/distance/distance_map.h"
 #include "codec/distance/surface_distance.h"
+#include "codec/export/write_mesh.h"
 #include "server/cli/commands/command.h"
 #include "server/cli/support/companion_files.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/isolation.h"
+#include "server/cli/support/output.h"
 #include "server/cli/support/reading.h"
 #include "server/cli/support/surface_file.h"
 #include "server/cli/support/surface_textures.h"
@@ -62,6 +66,14 @@ json describe(const SurfaceDistance& d) {
           {"b_to_a", one_way(d.b_to_a)}};
 }
 
+// Describes the map's colours, with the distances in the unit of the numbers.
+std::string legend(const json& map) {
+  return fmt::format(
+      "\n{0}: A's surface, red where it lies {1:.6g} or more outside B, blue where it lies {1:.6g} "
+      "or more inside B, grey where both agree",
+      map["file"].get<std::string>(), map["range"].get<double>());
+}
+
 std::string distances(const json& r) {
   const auto line = [](const char* name, const json& d) {
     return fmt::format("\n{}: rms {:.6g}, p95 {:.6g}, max {:.6g}", name, d["rms"].get<double>(),
@@ -70,7 +82,8 @@ std::string distances(const json& r) {
   return fmt::format("rms {:.6g} ({:.4g} % of B's diagonal), max {:.6g} ({:.4g} %)",
                      r["rms"].get<double>(), r["rms_percent"].get<double>(), r["max"].get<double>(),
                      r["max_percent"].get<double>()) +
-         line("A to B", r["a_to_b"]) + line("B to A", r["b_to_a"]);
+         line("A to B", r["a_to_b"]) + line("B to A", r["b_to_a"]) +
+         (r.contains("map") ? legend(r["map"]) : "");
 }
 
 std::string likeness(const json& r) {
@@ -81,43 +94,106 @@ std::string likeness(const json& r) {
 
 // A way to compare two surfaces, for example by their distance.
 struct Measure {
-  std::function<Expected<json>(SurfaceInput a, SurfaceInput b)> compare;
+  std::function<Expected<Product>(SurfaceInput a, SurfaceInput b)> compare;
   std::string (*as_text)(const json& report);
   SurfaceParts parts = SurfaceParts::kShape;  // the parts that `compare` needs
 };
 
-Measure distance_measure(const MeasureOptions& options) {
-  const auto compare = [options](const SurfaceInput& a, const SurfaceInput& b) {
-    return measure(a.mesh, b.mesh, options).map([](const SurfaceDistance& d) {
-      return describe(d);
-    });
-  };
-  return {compare, distances};
+struct MapTarget {
+  std::string file;
+  MeshFormat format;
+  std::optional<double> range;  // in B's unit; see distance_map()
+};
+
+struct DistanceTask {
+  MeasureOptions options;
+  bool aligns = false;
+  std::optional<MapTarget> map;
+};
+
+Expected<void> add_map(Product& product, const TriangleMesh& a, const SurfaceInput& b,
+                       const MapTarget& target) {
+  const auto map = distance_map(a, b.mesh, target.range);
+  if (!map) return tl::unexpected(map.error());
+  auto file =
+      write_mesh(map->mesh, target.format, {.unit = b.unit, .about = {.title = "Distance map"}});
+  if (!file) return tl::unexpected(file.error());
+  product.file = *std::move(file);
+  product.report["map"] = {{"file", target.file}, {"range", map->range}};
+  return {};
 }
 
-Expected<json> compare_looks(SurfaceInput a, SurfaceInput b) {
+Expected<Product> compare_distances(SurfaceInput a, const SurfaceInput& b,
+                                    const DistanceTask& task) {
+  if (task.aligns) {
+    auto moved = aligned(a.mesh, b.mesh);
+    if (!moved) return tl::unexpected(moved.error());
+    a.mesh = *std::move(moved);
+  }
+  const auto distance = measure(a.mesh, b.mesh, task.options);
+  if (!distance) return tl::unexpected(distance.error());
+  Product product{describe(*distance), {}};
+  if (task.map)
+    if (const auto added = add_map(product, a.mesh, b, *task.map); !added)
+      return tl::unexpected(added.error());
+  return product;
+}
+
+Expected<Product> compare_looks(SurfaceInput a, SurfaceInput b) {
   const auto own = take_textures(a), others = take_textures(b);
   if (!own) return tl::unexpected(own.error());
   if (!others) return tl::unexpected(others.error());
   const auto found = compare_appearance({.mesh = a.mesh, .textures = own->get()},
                                         {.mesh = b.mesh, .textures = others->get()});
   return found.map([](const Appearance& appearance) {
-    return json{{"psnr", appearance.psnr ? json(*appearance.psnr) : json()},
-                {"ssim", appearance.ssim}};
+    return Product{
+        {{"psnr", appearance.psnr ? json(*appearance.psnr) : json()}, {"ssim", appearance.ssim}},
+        {}};
   });
 }
 
-tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
-  if (arguments.has("--appearance")) {
-    if (!arguments.has("--align") && !arguments.has("--samples"))
-      return Measure{compare_looks, likeness, SurfaceParts::kLooks};
-    return misused("--align and --samples are for distances; leave them or --appearance out");
+bool has_colours(MeshFormat format) {
+  return format != MeshFormat::kStl;
+}
+
+// Reads --map and --range. Returns nullopt if no map is wanted.
+tl::expected<std::optional<MapTarget>, Fault> map_from(const Arguments& arguments) {
+  const auto range = arguments.distance("--range");
+  if (!range) return tl::unexpected(range.error());
+  if (*range == 0.0) return arguments.wrong_value("--range", "a distance above 0");
+  if (!arguments.has("--map")) {
+    if (!*range) return std::nullopt;
+    return misused("--range is for --map; name the map's file");
   }
-  MeasureOptions options{.aligns = arguments.has("--align")};
+  const std::string file = arguments.text("--map");
+  const auto format = format_of_extension(std::filesystem::path(file).extension().string());
+  if (!format || !has_colours(*format))
+    return arguments.wrong_value(
+        "--map", fmt::format("a file of a format with colours, such as {}", "map.ply"));
+  if (const auto free = check_output(arguments, file); !free) return failed(free.error());
+  return MapTarget{file, *format, *range};
+}
+
+tl::expected<Measure, Fault> distance_measure(const Arguments& arguments) {
+  DistanceTask task{.aligns = arguments.has("--align")};
   const auto samples = arguments.number("--samples", 1, 100'000'000);
   if (!samples) return tl::unexpected(samples.error());
-  options.samples = samples->value_or(options.samples);
-  return distance_measure(options);
+  task.options.samples = samples->value_or(task.options.samples);
+  auto map = map_from(arguments);
+  if (!map) return tl::unexpected(map.error());
+  task.map = *std::move(map);
+  return Measure{[task](SurfaceInput a, const SurfaceInput& b) {
+                   return compare_distances(std::move(a), b, task);
+                 },
+                 distances};
+}
+
+tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
+  if (!arguments.has("--appearance")) return distance_measure(arguments);
+  for (const char* flag : {"--align", "--samples", "--map", "--range"})
+    if (arguments.has(flag))
+      return misused(fmt::format("{} is for distances; leave it or --appearance out", flag));
+  return Measure{compare_looks, likeness, SurfaceParts::kLooks};
 }
 
 // A surface's file, and the files beside it that contain the required parts.
@@ -156,10 +232,9 @@ Expected<Product> compare(const MeasuredFile& a, const MeasuredFile& b, const Re
   if (!second) return tl::unexpected(second.error());
   const std::string note = notes_on(*first, *second);
   convert(*first, second->unit);
-  auto report = measure.compare(*std::move(first), *std::move(second));
-  if (!report) return tl::unexpected(report.error());
-  if (!note.empty()) (*report)["note"] = note;
-  return Product{*std::move(report), {}};
+  auto product = measure.compare(*std::move(first), *std::move(second));
+  if (product && !note.empty()) product->report["note"] = note;
+  return product;
 }
 
 CommandOutcome run_measure(const Arguments& arguments) {
@@ -174,6 +249,9 @@ CommandOutcome run_measure(const Arguments& arguments) {
   const auto product = isolate(
       "cannot measure", [&](const ProgressReport&) { return compare(*a, *b, *reading, *chosen); });
   if (!product) return tl::unexpected(product.error());
+  if (arguments.has("--map"))
+    if (auto written = write_output(arguments.text("--map"), product->file); !written)
+      return written;
   return arguments.has("--json") ? print_json(product->report)
                                  : print(chosen->as_text(product->report));
 }
@@ -187,6 +265,13 @@ constexpr Flag kMeasureFlags[] = {
      "compare pictures of both models from twelve sides instead of distances: peak signal-to-noise "
      "ratio (psnr, dB; null if the pictures are equal) and structural similarity (ssim; 1 if "
      "equal)"},
+    {"--map", "OUT",
+     "also write A's surface with a colour for the distance to B: grey where both agree, red where "
+     "A lies outside B, blue where it lies inside; OUT is a mesh file, but not .stl"},
+    {"--range", "D",
+     "distance of the full colours of --map, in B's unit; default: the distance that 95 % of A's "
+     "vertices do not exceed"},
+    kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace
@@ -200,7 +285,9 @@ const Command kMeasure = {
         "is in B's unit.",
     .operands = kMeasureOperands,
     .flags = kMeasureFlags,
-    .examples = "vitrine measure small.ply bust.ply",
+    .examples =
+        "vitrine measure small.ply bust.ply\nvitrine measure after.ply before.ply --align "
+        "--map change.ply",
     .run = run_measure};
 
 }  // namespace vitrine::server::cli

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "codec/distance/distance_map.h"
 #include "codec/distance/rigid_alignment.h"
 #include "codec/mesh/triangle_bvh.h"
 #include "support/meshes.h"
@@ -154,14 +155,35 @@ TEST(Measure, AlignmentUndoesARigidMotion) {
   for (Vec3& p : moved.positions)
     p += (high - low) * 0.02;
   EXPECT_GT(measure(moved, still, {.samples = 2000})->rms_percent, 1);
-  EXPECT_LT(measure(moved, still, {.samples = 2000, .aligns = true})->rms_percent, 0.01);
+  EXPECT_LT(measure(*aligned(moved, still), still, {.samples = 2000})->rms_percent, 0.01);
 }
 
 TEST(Measure, DoesNotScaleWhenItAligns) {
   TriangleMesh large = torus(40, 20);
   for (Vec3& p : large.positions)
     p = p * 1.1;
-  EXPECT_GT(measure(large, torus(40, 20), {.samples = 2000, .aligns = true})->rms, 0.2);
+  const TriangleMesh small = torus(40, 20);
+  EXPECT_GT(measure(*aligned(large, small), small, {.samples = 2000})->rms, 0.2);
+}
+
+TEST(DistanceMap, IsRedOutsideBlueInsideAndGreyWhereBothAgree) {
+  TriangleMesh a = square(2, 0);
+  a.positions = {{0.5, 0.5, 0}, {1, 0.5, 0.1}, {1, 1, 0.2}, {0.5, 1, -0.4}};
+  const TriangleMesh b = square(3, 0);
+  const auto map = distance_map(a, b, 0.2);
+  EXPECT_EQ(map->range, 0.2);
+  EXPECT_EQ(map->mesh.positions, a.positions);
+  const Colour grey{224, 224, 220}, red{190, 38, 34}, blue{33, 72, 184};
+  EXPECT_EQ(map->mesh.attributes.colours, (std::vector<Colour>{grey, {207, 131, 127}, red, blue}));
+}
+
+TEST(DistanceMap, HasTheRangeOfNearlyAllVertices) {
+  TriangleMesh a = torus(40, 20);
+  const TriangleMesh b = a;
+  for (std::size_t v = 0; v < a.positions.size(); ++v)
+    a.positions[v].y += v % 50 == 0 ? 5 : 0;
+  EXPECT_LT(distance_map(a, b)->range, 1e-9);
+  EXPECT_EQ(distance_map({}, b).error().message, measure({}, b).error().message);
 }
 
 TEST(Measure, CopesWithFacesWithoutArea) {

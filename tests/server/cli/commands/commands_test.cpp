@@ -193,6 +193,30 @@ TEST_F(VitrineCommand, MeasureReadsTheDrcThatDecodeWrites) {
   EXPECT_GT(measured["max"].get<double>(), 0);
 }
 
+TEST_F(VitrineCommand, MeasureWritesAMapOfTheDistances) {
+  const std::string file = model(), map = path("map.ply");
+  vitrine_json({"decode", file, "-o", path("coarse.ply"), "--level", "1"});
+  const json measured = vitrine_json({"measure", path("coarse.ply"), file, "--map", map});
+  EXPECT_EQ(measured["map"]["file"], map);
+  EXPECT_GT(measured["map"]["range"].get<double>(), 0);
+  EXPECT_LE(measured["map"]["range"].get<double>(), measured["a_to_b"]["max"].get<double>());
+  EXPECT_THAT(read("map.ply"), HasSubstr("property uchar red"));
+  expect_fault(vitrine({"measure", file, file, "--map", map}), 1);  // the file exists
+}
+
+TEST_F(VitrineCommand, MeasureRefusesAMapThatCannotHaveColours) {
+  const std::string file = model();
+  const std::vector<std::vector<std::string>> wrong = {{"--map", path("map.stl")},
+                                                       {"--map", path("map")},
+                                                       {"--range", "2"},
+                                                       {"--map", path("map.ply"), "--range", "0"},
+                                                       {"--map", path("map.ply"), "--appearance"}};
+  for (auto words : wrong) {
+    words.insert(words.begin(), {"measure", file, file});
+    expect_fault(vitrine(words), 2);
+  }
+}
+
 TEST_F(VitrineCommand, RepairsAreListed) {
   std::string text = bumpy_ply(500);
   const std::size_t face = text.find("\n3 ", text.find("end_header")) + 1;

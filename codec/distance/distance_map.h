@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paints the distance between two surfaces on one of them, for example to show what has changed
+// between two scans of an object.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "codec/core/expected.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::inline codec {
+
+// Returns A, moved by a rotation and a translation so that it fits B best. `seed` chooses the
+// samples of A. Fails (kBadInput) like measure().
+Expected<TriangleMesh> aligned(const TriangleMesh& a, const TriangleMesh& b,
+                               std::uint64_t seed = 1);
+
+struct DistanceMap {
+  TriangleMesh mesh;  // A, with a colour for each vertex
+  double range = 0;   // the distance of the full colours, in model units
+};
+
+// Colours each vertex of A by its distance to the closest point of B: grey at 0, red at `range` and
+// more on the side to which B's face there points, blue on the other side. Without `range`, takes
+// the distance that 95 % of the vertices do not exceed. Fails (kBadInput) like measure().
+Expected<DistanceMap> distance_map(TriangleMesh a, const TriangleMesh& b,
+                                   std::optional<double> range = {});
+
+}  // namespace vitrine::inline codec
