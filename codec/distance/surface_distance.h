@@ -14,7 +14,7 @@ namespace vitrine::inline codec {
 struct MeasureOptions {
   std::size_t samples = 200'000;  // samples per surface, at least 1
   std::uint64_t seed = 1;
-  bool aligns = false;  // whether A is first moved to fit B
+  bool aligns = false;  // whether surface A is first moved to fit surface B
 };
 
 struct OneWayDistance {
@@ -22,7 +22,7 @@ struct OneWayDistance {
 };
 
 struct SurfaceDistance {
-  double rms = 0, max = 0;  // the larger of both directions, model units
+  double rms = 0, max = 0;  // the larger value of both directions, in model units
   // rms and max as percentages of the diagonal of B's bounding box. 0 if the box is a point.
   double rms_percent = 0, max_percent = 0;
   OneWayDistance a_to_b, b_to_a;

@@ -6,7 +6,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// The bits of the coordinates of a corner, all sets.
+// The bits of a corner's texture coordinates, in all sets.
 using CornerBits = std::array<std::array<std::uint32_t, 2>, kCoordinateSets>;
 
 CornerBits bits_of(const Texturing& texturing, std::size_t face, std::size_t k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blocks of a `.pmesh` file: its base mesh, the atlas and the pictures of its texture, its
-// chunks, and its optional blocks. The header has the SHA-256 of each block, by which clients
-// request it.
+// chunks, and its optional blocks. The header states the SHA-256 of each block. Clients request
+// blocks by this hash.
 #pragma once
 
 #include "codec/format/manifest.h"
@@ -35,8 +35,8 @@ void for_each_block(const Manifest& manifest, Visit visit) {
     visit(FileBlock{chunk.sha256, chunk.offset, chunk.length});
 }
 
-// Whether `head`, the first head_bytes() bytes of a file, has the SHA-256 that `manifest` states
-// for each of its blocks.
+// Whether the blocks in the head are intact: `head`, the first head_bytes() bytes of a file, has
+// for each of its blocks the SHA-256 that `manifest` states.
 bool is_intact_head(const Manifest& manifest, std::span<const std::uint8_t> head);
 
 }  // namespace vitrine::inline codec

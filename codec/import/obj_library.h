@@ -20,7 +20,7 @@ namespace vitrine::inline codec {
 // name is empty if there is no map.
 struct ObjMap {
   std::string name;
-  std::array<float, 2> scale{1, 1}, offset{0, 0};  // for coordinates with v = 0 at the bottom
+  std::array<float, 2> scale{1, 1}, offset{0, 0};  // both for coordinates with v = 0 at the bottom
   bool is_clamped = false;
 
   bool empty() const { return name.empty(); }

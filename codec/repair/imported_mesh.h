@@ -15,7 +15,7 @@ namespace vitrine::inline codec {
 struct ImportedMesh {
   TriangleMesh mesh;                 // in model units
   std::string unit;                  // a name in kLengthUnits, or empty if unknown
-  std::vector<std::string> repairs;  // one line for each kind of removal or change
+  std::vector<std::string> repairs;  // one line for each kind of change made by the reader
   Texturing texturing;  // texturing of `mesh`; its pictures also determine the vertex colours
 };
 

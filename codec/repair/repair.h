@@ -23,7 +23,7 @@ struct RepairedMesh {
 
 // Repairs a mesh in these steps:
 // - Faces that repeat a vertex are removed.
-// - Of duplicate faces (same vertices in the same cyclic order), only the first is kept.
+// - Duplicates of an earlier face (same vertices in the same cyclic order) are removed.
 // - Each connected patch gets the orientation of the majority of its faces.
 // - At an edge with three or more faces, the faces are paired by angle. This separates solids that
 //   touch at the edge. Two opposed faces on the same vertices become two separate sheets.
