@@ -16,7 +16,7 @@ struct CodedOrder {
   std::vector<std::uint32_t> rank;  // per vertex: the index of its value in coded order
 };
 
-// Depth-first walk: goes on from face to face as far as possible, then returns to the last face
+// Depth-first walk: proceeds from face to face as far as possible, then returns to the last face
 // that has another unvisited neighbour.
 CodedOrder depth_first_order(const CornerTable& table);
 

@@ -94,7 +94,7 @@ tl::expected<std::string, Fault> name_of_output(const Arguments& arguments) {
       fmt::format("one of {},{}", std::string_view(kExportChoice), std::string_view(kZipChoice)));
 }
 
-// Writes the product to the file of -o, with its companions beside that file, or to standard
+// Writes the product to the file named by -o, with its companions beside that file, or to standard
 // output.
 CommandOutcome write_product(const Arguments& arguments, Product& product) {
   const std::string out = arguments.text("-o");
