@@ -32,10 +32,10 @@ struct Coverage {
 
 struct CalibrationReport {
   int pictures = 0;
-  std::size_t points = 0;  // stripe points on the target
+  std::size_t points = 0;  // number of stripe points on the target
   // Number of points on the target that were left out because they are far from the stripe.
   std::size_t strays = 0;
-  int unclear = 0;  // pictures left out because too many of their points were strays
+  int unclear = 0;  // number of pictures left out because too many of their points were strays
   // Rms reprojection error of the target's corners, in pixels. 0 if there are no pictures.
   double reprojection = 0;
   // Rms difference, in degrees, between the angles that the table reports and the angles computed

@@ -22,8 +22,8 @@ struct WindowLimits {
   double noise = 0;         // mm: standard deviation of the points
 };
 
-// Returns the windows in ascending order, without gaps or overlaps. A point
-// flagged kApart, where the surface does not continue from the point before, begins a new window.
+// Returns the windows in ascending order, without gaps or overlaps. A point that is flagged kApart
+// begins a new window, because the surface does not continue from the point before it.
 std::vector<Window> adaptive_windows(std::span<const ProfilePoint> points,
                                      const WindowLimits& limits);
 

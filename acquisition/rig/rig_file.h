@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a rig.json for this simulated scanner. `vitrine` reads this file like that of any other
-// scanner.
+// Writes a rig.json for this simulated scanner. `vitrine` reads it in the same way as that of a
+// real scanner.
 #pragma once
 
 #include <filesystem>

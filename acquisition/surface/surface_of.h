@@ -44,11 +44,11 @@ struct ScannedSurface {
 // Makes a mesh from the `profiles` of one revolution, which may be in any order. The last profile
 // joins the first. Profiles whose rows show two surfaces are split into strands (strands.h), and
 // each strand joins the nearest strands. The order of processing is: drop outliers, isolated points
-// and second views beyond the axis; fill gaps; smooth; sample; mesh; close small holes.
-// No edge has more than two faces, and these traverse it in opposite directions. A vertex may have
-// several fans, which the import splits. The object's top and bottom stay open, apart from holes up
-// to `largest_hole`. Fails with kBadInput, giving the reason, if no points are left to mesh. O(n
-// log n).
+// and second views beyond the axis; fill gaps; smooth; sample; mesh; close small holes. No edge has
+// more than two faces, and these traverse it in opposite directions. A vertex may have several
+// fans, which the import splits. The object's top and bottom stay open, apart from holes up to
+// `largest_hole`. Fails with kBadInput, giving the reason, if no points are left to mesh. Takes O(n
+// log n) time.
 Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
                                     const SurfaceOptions& options);
 
