@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks every route of the OpenAPI document as every role, for models in every state, on two daemons that share a
-// PostgreSQL catalogue and a Ceph bucket. One daemon, which drives a simulated scanner, makes and changes the model.
-// Nothing that the model then hides may come out of either, and both must give the same statuses. Prints the access
-// matrix. run.sh starts this test.
+// Walks every route of the OpenAPI document as every role, for models in every state, on two
+// daemons that share a PostgreSQL catalogue and a Ceph bucket. One daemon, which drives a simulated
+// scanner, makes and changes the model. Neither daemon may then reveal anything that the model
+// hides, and both must respond with the same statuses. Prints the access matrix. run.sh starts this
+// test.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { randomBytes } from "node:crypto";
@@ -126,8 +127,9 @@ async function scan(number, order) {
 const manifestOf = (one, model, role) => ask(one, "GET", `/api/v1/models/${model}/manifest`, role);
 
 /**
- * Returns the bytes that show a model at a level, or at its finest one: exports and, of the finest level, chunks and the
- * poster, unless another poster, which shares bytes with it, is public.
+ * Returns bytes that reveal a model at `level`, or at its finest level: its exports and, at the
+ * finest level, also its chunks and its poster. Leaves out the poster if another public poster
+ * shares bytes with it.
  */
 async function pictured(model, level, hasPoster = false) {
   const query = level === undefined ? "" : `?level=${level}`, paths = kBinary.map((format) => `/export.${format}${query}`);
@@ -139,7 +141,10 @@ async function pictured(model, level, hasPoster = false) {
   return { bytes: answers.map(({ body }) => withoutText(body)), names: chunks.map(({ sha256 }) => sha256) };
 }
 
-/** Returns the points and the profile of a model's scan, if it is scanned. */
+/**
+ * Returns the points and the profile of a model's scan, or an empty list if the model was not
+ * scanned.
+ */
 async function measuredBy({ scan }) {
   const paths = scan ? [`/scans/${scan}/points`, `/scans/${scan}/profile`] : [];
   const answers = await Promise.all(paths.map((path) => ask(replicas[0], "GET", `/api/v1${path}`, "admin")));
@@ -147,12 +152,15 @@ async function measuredBy({ scan }) {
   return { bytes: answers.map(({ body }) => body) };
 }
 
-/** Returns a file without the JSON of a GLB, whose words are no secret. */
+/** Returns a file. Removes the JSON of a GLB, whose words are no secret. */
 function withoutText(file) {
   return file.subarray(0, 4).toString() === "glTF" ? file.subarray(20 + file.readUInt32LE(12)) : file;
 }
 
-/** Waits until the second daemon shows visitors the same model as the first one, which a daemon may take a second for. */
+/**
+ * Waits until the second daemon shows visitors the same model as the first daemon. This can take a
+ * second.
+ */
 async function agree(model) {
   const seen = ({ status, headers }) => `${status} ${status === 200 ? headers.etag : ""}`;
   for (;;) {

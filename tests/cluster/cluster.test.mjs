@@ -21,7 +21,7 @@ import { Viewer } from "./viewer.mjs";
 
 const kSides = [220, 200, 180], kBriefSides = [70, 60]; // vertices per side of the meshes
 const kViewers = 3;
-const kAway = 20_000; // ms for which first PostgreSQL and then the object store is stopped
+const kAway = 20_000; // time in ms for which first PostgreSQL and then the object store are stopped
 const kLongestGap = 5_000; // ms: maximum time in which a viewer receives no data after a serving replica is killed or a back end is stopped
 const kDeadline = 200_000; // ms: time limit of each step
 const rounds = Number(process.env.VITRINE_ROUNDS ?? 1);

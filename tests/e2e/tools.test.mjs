@@ -51,7 +51,10 @@ async function cameraOf(viewer) {
   return viewer.page.locator("input[name=link]").inputValue().then((link) => new URL(link).hash);
 }
 
-/** Waits until the viewer has reset itself, as in a kiosk whose visitor has left. The light must not be the initial one. */
+/**
+ * Makes the viewer reset itself, as in a kiosk whose visitor has left, and waits for the reset.
+ * Before, the light must not be the initial one.
+ */
 async function idle({ page }) {
   await page.locator("progressive-mesh").evaluate((element) => element.setAttribute("idle-reset", "0.1"));
   await page.locator("canvas").press("ArrowLeft");
@@ -261,7 +264,7 @@ describe("on a wide, light page", () => {
     await viewer.sheet("light");
     await page.locator("label:has([value=studio])").click();
     await idle(viewer);
-    assert.equal(await cameraOf(viewer), home.replace("&note=1", "")); // the note that the test before has chosen
+    assert.equal(await cameraOf(viewer), home.replace("&note=1", "")); // an earlier test has selected this note
   });
 
   test("axe finds no fault, whatever is open", async () => {

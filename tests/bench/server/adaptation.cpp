@@ -71,8 +71,8 @@ class Adaptation {
       dropped = StreamPeer::now();
     }
     double noticed = kNever;
-    // The default is a forecast that never came true. So the figure fails if the server sends no
-    // forecast.
+    // The default is a forecast that never came true. The figure therefore fails if the server
+    // sends no forecast.
     ReceivedForecast worst{.promise = {}, .at = 0};
     bool any = false;
     for (const ReceivedForecast& heard : course.forecasts()) {
