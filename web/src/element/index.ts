@@ -13,5 +13,5 @@ declare global {
   }
 }
 
-// A server that renders the page has no registry of elements.
+// There is no registry of elements if a server renders the page.
 if (globalThis.customElements && !customElements.get("progressive-mesh")) customElements.define("progressive-mesh", ProgressiveMeshElement);

@@ -22,7 +22,7 @@ export class Coupling {
   readonly #homes = new Map<Viewer, Home>();
   readonly #resized = new ResizeObserver(() => this.#goHome());
 
-  /** Adds a viewer, or says that it will show another model. `unit` is that of its model. */
+  /** Adds a viewer, or announces that a viewer will show another model. `unit` is the unit of the viewer's model. */
   set(viewer: Viewer, unit: Unit | ""): void {
     if (!this.#units.has(viewer)) this.#observe(viewer);
     this.#units.set(viewer, unit);
