@@ -13,7 +13,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// dots per mm of the print; margin of the paper in mm
+// dots per mm of the print; margin of the sheet in mm
 constexpr double kDotsPerMm = 12, kPaperMargin = 4;
 constexpr double kInk = 0.12, kPaper = 0.7;  // albedo of ink and paper
 
