@@ -13,7 +13,7 @@
 namespace vitrine::acquisition {
 
 struct AlignmentOptions {
-  double reach = .5;       // in mm; two surfaces closer than this count as the same surface
+  double reach = .5;       // distance in mm below which two surfaces count as one
   std::uint64_t seed = 1;  // seed of the random search; equal seeds give equal results
 };
 

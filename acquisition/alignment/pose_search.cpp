@@ -13,7 +13,8 @@ namespace {
 
 // smallest accepted ratio of two corresponding edges of a triple
 constexpr double kEdgeShare = .9;
-// in multiples of `reach`; triples with shorter edges do not determine a motion well
+// Least length of a triple's edges, in multiples of `reach`. Shorter triples do not determine a
+// motion well.
 constexpr double kLeastEdge = 4;
 // smallest accepted cosine between the normals of matched points
 constexpr double kCosNormals = .86;

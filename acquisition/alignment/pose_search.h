@@ -12,7 +12,8 @@
 namespace vitrine::acquisition {
 
 struct PoseSearch {
-  // in mm; a match agrees with a motion if its points are then closer than this
+  // Distance in mm. A match agrees with a motion if its two points are closer than this after the
+  // motion.
   double reach = 0;
   int trials = 1'000'000;       // number of triples of matches to try
   std::size_t candidates = 32;  // largest number of motions to return

@@ -15,7 +15,8 @@ namespace {
 constexpr double kPoints = 6'000;
 constexpr std::size_t kVertices = 3'000;  // number of vertices used for registration
 constexpr double kFeatureReach = 5;       // radius of features, in multiples of the spacing
-// in mm; a surface this close to a measured point does not count as crossing its sight line
+// Distance in mm. A surface closer than this to a measured point does not count as crossing the
+// point's sight line.
 constexpr double kMargin = 1.5;
 // limits for rough registration, in multiples of the spacing
 constexpr std::array kFirstReaches = {3., 2., 1.};

@@ -24,7 +24,7 @@ void add_lines(std::vector<SightLine>& lines, const Profile& profile, const Prof
                const std::optional<TablePoint>& camera) {
   const Vec3 at = position(profile, point);
   TablePoint laser = point.at;
-  constexpr double kFar = 1e6;  // in mm
+  constexpr double kFar = 1e6;  // distance in mm
   laser.rho = camera ? std::hypot(camera->rho, camera->lateral) : kFar;
   if (camera) laser.z = camera->z;
   lines.push_back({at, towards(at, place(profile, laser))});

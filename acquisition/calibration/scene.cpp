@@ -27,7 +27,7 @@ cv::Matx33d first_camera(std::span<const SeenTarget> seen, int width, int height
   }
   cv::Matx33d matrix = cv::initCameraMatrix2D(boards, images, {width, height});
   const double focal = matrix(0, 0);
-  // an implausible value, as if all views are frontal
+  // Replaces an implausible focal length, which may result if all views are frontal.
   if (!(focal > 0.3 * width && focal < 30 * width)) {
     matrix(0, 0) = matrix(1, 1) = 2.5 * width;
   }

@@ -42,7 +42,7 @@ std::vector<StripePoint> one_a_row(std::span<const StripePoint> stripe) {
   return first;
 }
 
-// Returns the range of the heights, in mm, after removing the strays at both ends.
+// Returns the range of the heights, in mm, without the share kStrays at each end.
 double extent(std::vector<double>& heights) {
   std::ranges::sort(heights);
   const auto strays = static_cast<std::size_t>(kStrays * static_cast<double>(heights.size()));

@@ -10,7 +10,7 @@ namespace {
 
 // An edge of mean length has at least this many steps of the lattice.
 constexpr double kStepsPerEdge = 32;
-// in coordinate units; a quarter of the least distance of charts
+// Largest step in coordinate units: a quarter of the least distance between charts.
 constexpr std::int32_t kLargestStep = 1024;
 // Smallest accepted ratio of the smaller to the larger of a face's areas before and after rounding.
 constexpr double kGood = 0.5;

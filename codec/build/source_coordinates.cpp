@@ -207,7 +207,8 @@ class SourcePass {
   }
 
   const Connectivity& mesh_;
-  // number of corners of faces; corners of faces that close boundary loops follow them
+  // Number of corners of real faces. The faces that close boundary loops have the corners after
+  // these.
   const Corner corners_;
   Texturing& texturing_;
   Coder& coder_;

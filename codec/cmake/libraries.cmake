@@ -18,7 +18,7 @@ set(library_nlohmann-json FIND nlohmann_json LINK nlohmann_json::nlohmann_json)
 set(library_pugixml FIND pugixml LINK pugixml::pugixml)
 set(library_threads FIND Threads LINK Threads::Threads)
 set(library_tl-expected FIND tl-expected LINK tl::expected)
-# These have no CMake package on Debian.
+# These libraries have no CMake package on Debian.
 set(library_Aravis MODULE aravis-0.8)
 set(library_libsystemd MODULE libsystemd)
 set(library_libusb MODULE libusb-1.0)

@@ -35,7 +35,7 @@ struct RingArrays {
   static constexpr std::size_t kSize = kMaxSplitValence + 1;
   std::array<double, kSize> x, y, z, length, valence, is_virtual;
   std::array<double, kSize> real, square;  // 1 and the squared length; 0 if the vertex is virtual
-  // feature 0, indexed by the number of faces of the new vertex
+  // The value of feature 0 for each number of faces of the new vertex.
   std::array<double, kSize> valences;
 };
 

@@ -30,7 +30,7 @@ class ObjMaterials {
   bool open_library(std::string_view name);
 
   // Selects the current material and returns its index among the materials kept. An unknown
-  // material is white. It is reported if any library was read.
+  // material is white, and is reported if any library was read.
   std::uint16_t use(std::string_view name);
   bool has_current() const { return current_ != nullptr; }
   // Returns the index of the material for faces that have none.

@@ -14,7 +14,7 @@ namespace {
 
 // The keyword of a file: letters that say what each vertex has, followed by "OFF".
 struct OffKeyword {
-  std::size_t size = 0;  // in bytes; 0 if the file has no keyword
+  std::size_t size = 0;  // length of the keyword in bytes; 0 if the file has none
   bool has_colours = false, has_normals = false, has_coordinates = false;
   bool has_more_dimensions = false;
   // Whether the colour of a vertex precedes its normal. In Geomview files, the keyword letters are

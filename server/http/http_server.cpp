@@ -105,7 +105,7 @@ asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) 
   dependencies_.metrics.connections.fetch_add(1, std::memory_order_relaxed);
   try {
     co_await run_session(connection, *this);
-  } catch (const std::exception& fault) {  // such as std::bad_alloc: ends only this connection
+  } catch (const std::exception& fault) {  // for example std::bad_alloc; ends only this connection
     dependencies_.events.event(Severity::kError, fault.what());
   }
   dependencies_.metrics.connections.fetch_sub(1, std::memory_order_relaxed);

@@ -47,7 +47,7 @@ void Collector::collect_and_tell() {
   Expected<Collected> collected;
   try {
     collected = collect();
-    // such as std::bad_alloc: tries again after the next pause
+    // For example std::bad_alloc. Tries again after the next pause.
   } catch (const std::exception& fault) {
     collected = fail(ErrorCode::kIo, std::string("cannot collect: ") + fault.what());
   }

@@ -379,7 +379,7 @@ void JobQueue::work(const SharedRun& run) {
   Expected<JobEnd> result = JobEnd::kDone;
   try {
     result = task_(*run);
-  } catch (const std::exception& fault) {  // such as std::bad_alloc: only this job fails
+  } catch (const std::exception& fault) {  // for example std::bad_alloc; only this job fails
     result = fail(ErrorCode::kIo, fault.what());
   }
   end(run, result);

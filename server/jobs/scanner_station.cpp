@@ -73,7 +73,8 @@ void ScannerStation::look_again() {
 ScannerStatus ScannerStation::status() {
   const auto job = jobs_.job_of(name());
   if (!job && looked_.valid())
-    // Waits only if there is no job, because a job may delay the search.
+    // If a job runs, the search for the scanner may wait for the end of the job. Therefore waits
+    // for the search only if there is no job.
     looked_.wait_for(kLookTimeout);
   ScannerStatus status{.name = name(), .power = backend_.power()};
   {

@@ -239,7 +239,7 @@ Expected<PublishedModels::ModelPointer> PublishedModels::load(const Scope& scope
   misses.fetch_add(1, std::memory_order_relaxed);
   try {
     own->promise.set_value(open(scope));
-  } catch (...) {  // such as std::bad_alloc: all waiting callers fail
+  } catch (...) {  // for example std::bad_alloc; all waiting callers fail
     own->promise.set_exception(std::current_exception());
   }
   const std::unique_lock lock(mutex_);

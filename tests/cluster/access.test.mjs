@@ -247,7 +247,7 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     await agree(made.model);
     const hidesPoster = typeof shown !== "number";
     const old = await pictured(made.model, undefined, hidesPoster);
-    await Promise.all(replicas.map((one) => streamed(one, made.model))); // now both daemons have it in memory
+    await Promise.all(replicas.map((one) => streamed(one, made.model))); // now both daemons have the model in memory
     const measured = await measuredBy(made);
     await enter(made);
     assert.equal(await agree(made.model), status);

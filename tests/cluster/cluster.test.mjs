@@ -198,7 +198,7 @@ step("every model equals the file of vitrine build, bit for bit; no object in us
   const named = (await cluster.postgres.query("SELECT DISTINCT encode(file, 'hex') FROM model")).flat();
   assert.deepEqual(invariants.collectedAlive(named, await cluster.gateway.objects()), []);
   const [cold] = cluster.having("serve");
-  await cold.crash(); // its local copies are lost
+  await cold.crash(); // the daemon's local copies are lost
   const models = [];
   const served = async (model, expected) => {
     const answer = await fetch(`${cold.url}/api/v1/models/${model}/file.pmesh`);

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSearchedBytes = 1 << 20;
-// in bytes; a glTF file may name files at the end of its JSON
+// Limit in bytes. It is large, because a glTF file may name files at the end of its JSON.
 constexpr std::size_t kMostSearchedJson = 16 << 20;
 
 std::string_view text_of(std::span<const std::uint8_t> bytes) {

@@ -25,7 +25,7 @@ Unexpected unreadable(const std::string& path, int error) {
               fmt::format("cannot read {}: {}; {}", path, std::strerror(error), next));
 }
 
-constexpr std::uint64_t kMostOfStream = 4ull << 30;  // in bytes; limit for standard input
+constexpr std::uint64_t kMostOfStream = 4ull << 30;  // limit for standard input, in bytes
 
 // Copies standard input into the file `to`. Returns 0, or an errno value: EFBIG if standard input
 // has more than kMostOfStream bytes.

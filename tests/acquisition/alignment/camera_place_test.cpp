@@ -11,7 +11,7 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr double kFocal = 3'000;  // focal length in pixels
-// in mm: x and y in the laser plane, then the distance from the plane
+// Position in mm: x and y in the laser plane, then the distance from the plane.
 const Vec3 kCamera = {250, 60, 160};
 constexpr int kWidth = 1'300, kHeight = 1'030;  // pixels
 

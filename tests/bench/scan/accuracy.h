@@ -11,7 +11,7 @@ struct Distances {
   double rms = 0, p95 = 0;  // in mm; p95 is the 95th percentile
   double within = 0;        // share of points closer than kCovered
 };
-inline constexpr double kCovered = 0.1;  // in mm
+inline constexpr double kCovered = 0.1;  // distance in mm
 
 struct Accuracy {
   Distances scan_to_truth;  // distances from all points of the scan

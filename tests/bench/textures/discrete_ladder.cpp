@@ -15,7 +15,7 @@
 namespace vitrine::bench {
 namespace {
 
-// as shares of the faces
+// Numbers of faces of the rungs, as shares of all faces.
 constexpr std::array<double, 7> kRungs = {0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1};
 
 std::vector<MeshoptInput> simplified(const MeshoptInput& mesh) {

@@ -22,10 +22,10 @@ class DiscreteLadder {
 
   double ssim(const AppearanceReference& reference, const ModelState& state) const;
 
-  // Bytes of each state if it is fetched alone, as a single file.
+  // Returns the bytes of each state if the state is fetched alone, as a single file.
   StateBytes single_files() const;
-  // Bytes for a client that fetches every rung up to that of the state, and every size of its
-  // pictures, one after the other.
+  // Returns the bytes for a client that fetches, one after the other, every rung up to the rung of
+  // the state, and every size of the state's pictures.
   StateBytes one_after_the_other() const;
 
  private:

@@ -9,8 +9,9 @@
 
 namespace vitrine::bench {
 
-// Compares three sizes: of texture coordinates with those in Draco files; of positions with those
-// of the same model without texture; and of whole files with Draco files and unmasked pictures.
+// Makes three comparisons of sizes. Texture coordinates are compared with those in Draco files.
+// Positions are compared with those of the same model without texture. Whole files are compared
+// with Draco files that have unmasked pictures.
 void sizes(Report& report, const std::vector<TexturedModel>& models);
 
 // Compares two numbers of bytes: those after which the model looks like the source, and those that

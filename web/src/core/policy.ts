@@ -40,7 +40,7 @@ export class PolicyWatch {
 /** Returns the source expression with which a policy permits `blockedURI`. */
 function sourceOf(blockedURI: string): string {
   if (blockedURI === "wasm-eval") return "'wasm-unsafe-eval'";
-  if (!blockedURI.includes(":")) return `${blockedURI}:`; // for example "blob" or "data"
+  if (!blockedURI.includes(":")) return `${blockedURI}:`; // a scheme such as "blob" or "data"
   const { origin } = new URL(blockedURI);
   return origin === location.origin ? "'self'" : origin;
 }

@@ -13,5 +13,5 @@ declare global {
   }
 }
 
-// There is no registry of elements if a server renders the page.
+// On a server that renders the page, there is no registry of elements.
 if (globalThis.customElements && !customElements.get("progressive-mesh")) customElements.define("progressive-mesh", ProgressiveMeshElement);
