@@ -13,7 +13,7 @@
 namespace vitrine::acquisition {
 
 struct PlanePoint {
-  // mm, in the laser plane. y runs upwards, roughly along the table's axis.
+  // Coordinates in the laser plane, in mm. y runs upwards, roughly along the table's axis.
   double x = 0, y = 0;
 };
 

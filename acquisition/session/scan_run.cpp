@@ -59,7 +59,8 @@ Expected<void> ScanRun::open_folder() {
   Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
     judged = stripe_watch_->add(stripes_[step], step + 1);
-  // This can fail only if an earlier process crashed between storing the last step and judging it.
+  // The verdict is an error only if an earlier process crashed after it had stored the last step
+  // and before it had judged this step.
   if (!judged) return refuse(judged.error());
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());

@@ -7,7 +7,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Some readers of PLY refuse lines of more than 1023 bytes.
+// Largest number of bytes of a text. Some readers of PLY refuse lines of more than 1,023 bytes.
 constexpr std::size_t kMostBytes = 400;
 
 std::size_t character_bytes(std::string_view text) {

@@ -59,7 +59,7 @@ Response with_job(const Request& request, Services& services, Answer&& answer) {
   if (*job && request.caller) return for_caller(answer(**job));
   if (*job && is_visible((*job)->record, services.scans, services.models))
     return answer(without_reasons(**job));
-  // 401 instead of 404, so that the response does not reveal which jobs exist
+  // Responds with 401 instead of 404, so that the response does not reveal which jobs exist.
   if (!request.caller) return token_needed(request);
   return problem(404, "there is no such job", request.id);
 }

@@ -46,7 +46,8 @@ class BuildChild {
   // build_model(), and with kState after stop().
   Expected<ChildResult> build(std::span<const std::uint8_t> mesh, const BuildOrder& order,
                               const ProgressReport& progress);
-  // Like the function above, but reads from an open file. The file must not change during the call.
+  // Like the overload above, but reads the mesh from an open file. The file must not change during
+  // the call.
   Expected<ChildResult> build(const FileDescriptor& mesh, const BuildOrder& order,
                               const ProgressReport& progress);
 

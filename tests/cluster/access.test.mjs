@@ -187,7 +187,7 @@ function queries(path, model) {
 /** Asks one daemon for a route as one role, for all values of its parameters. Returns the statuses. */
 async function walk(one, { method, path, role: least }, role, { state, made, names, secrets }) {
   const may = kRoles.indexOf(role) >= kRoles.indexOf(least), statuses = [];
-  if (may && method !== "GET") return statuses; // this would change the model
+  if (may && method !== "GET") return statuses; // the request would change the model
   const ids = [made.model, made.job, "01arz3ndektsv4rrffq69g5fav", ...(made.scan ? [made.scan] : [])];
   for (const expansion of expanded(path, { id: ids, sha256: names, format: kFormats, name: ["rig"], number: ["1"] })) {
     for (const query of queries(path, made.model)) {

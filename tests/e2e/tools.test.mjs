@@ -45,7 +45,7 @@ async function drawn(viewer) {
 /** Waits until the viewer announces a text that contains `words`. */
 const heard = (viewer, words) => viewer.page.locator("[role=status]", { hasText: words }).waitFor({ state: "attached" });
 
-/** Returns what the link to the current view says. */
+/** Returns the fragment of the link to the current view. */
 async function cameraOf(viewer) {
   await viewer.sheet("save");
   return viewer.page.locator("input[name=link]").inputValue().then((link) => new URL(link).hash);

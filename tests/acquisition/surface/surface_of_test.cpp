@@ -216,9 +216,9 @@ TEST(Surface, ASlopeThatIsGrazedAllAlongIsWhole) {
   EXPECT_EQ(mesh_of(profiles, {.largest_spacing = .42}).faces.size(), 2 * 360 * 19);
 }
 
-// The slope of the test above, but tilted: its height changes by up to .35 mm from one profile to
-// the next. The depth therefore changes by up to 2.5 mm between profiles and by 1.8 mm between
-// rows.
+// Like the slope of the previous test, but tilted: the slope's height changes by up to .35 mm from
+// one profile to the next. The depth therefore changes by up to 2.5 mm between profiles and by 1.8
+// mm between rows.
 TEST(Surface, ASlopeThatRunsAcrossTheRowsIsWholeToo) {
   const auto cone = [](double angle, double z) -> std::optional<double> {
     const double rho = 45 - 7.2 * (z - 20 - 20 * std::sin(angle));

@@ -9,7 +9,7 @@
 
 namespace vitrine::bench {
 
-// WebP quality, the same as that of our coarse pictures
+// Quality with which the pictures are written as WebP files.
 inline constexpr int kPictureQuality = 80;
 // least side, in pixels, of a picture for the competing formats
 inline constexpr std::uint32_t kLeastSide = 256;

@@ -65,7 +65,7 @@ TEST_F(FuseAtRig, TheHeadStandingAndUpsideDownBecomesOneSurface) {
   EXPECT_LT(both["b_to_a"]["rms"].get<double>(), one["b_to_a"]["rms"].get<double>());
 }
 
-// Nothing tells how a body of revolution was turned about its axis.
+// From a body of revolution, the turn about its axis between two scans cannot be determined.
 TEST_F(FuseAtRig, ASymmetricObjectIsRefusedAndNothingIsWritten) {
   std::string ply;
   constexpr int kAround = 60, kRows = 40;
