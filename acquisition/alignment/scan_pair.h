@@ -17,7 +17,7 @@ namespace vitrine::acquisition {
 // A scan of an object in one pose.
 struct PoseScan {
   std::string name;              // name of the scan in error messages
-  TriangleMesh mesh;             // mm
+  TriangleMesh mesh;             // positions in mm
   std::vector<SightLine> lines;  // sight lines in the frame of `mesh`
 };
 

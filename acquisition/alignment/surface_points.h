@@ -12,7 +12,7 @@
 namespace vitrine::acquisition {
 
 struct SurfacePoints {
-  std::vector<Vec3> at;       // mm
+  std::vector<Vec3> at;       // positions in mm
   std::vector<Vec3> normals;  // unit vectors, towards the outside
   std::size_t size() const { return at.size(); }
 };

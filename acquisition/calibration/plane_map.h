@@ -18,7 +18,7 @@ struct PlanePoint {
 };
 
 struct Correspondence {
-  double u = 0, v = 0;  // pixels, relative to the region's top left pixel
+  double u = 0, v = 0;  // in pixels from the region's top left pixel
   PlanePoint at;
   int pose = 0;  // index of the picture that shows the point
 };

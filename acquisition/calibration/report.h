@@ -10,7 +10,7 @@
 namespace vitrine::acquisition {
 
 struct HeldOutPoint {
-  double u = 0, v = 0;  // pixels
+  double u = 0, v = 0;  // position of the point in the picture, in pixels
   // Residuals in mm, measured minus predicted: dx and dy in the laser plane, dw perpendicular to
   // it.
   double dx = 0, dy = 0, dw = 0;
@@ -27,7 +27,8 @@ struct DegreeResult {
 
 struct Coverage {
   double image_share = 0;  // share of the picture within the map's hull
-  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;  // mm: bounds of the hull in the laser plane
+  // Bounds of the hull in the laser plane, in mm.
+  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
 
 struct CalibrationReport {

@@ -18,7 +18,7 @@ constexpr double kMostSaturated = .8, kMostDoubled = .5;
 // view, covers only a hundredth of a picture.
 constexpr double kMostFull = .05;
 constexpr int kFullLevel = 254;     // grey level at which a stripe counts as saturated
-constexpr double kLeastHeight = 1;  // mm: least height of an object
+constexpr double kLeastHeight = 1;  // least height of an object, in mm
 constexpr double kStrays = .02;     // share of the points ignored at the top, and at the bottom
 // share of the points that is ignored as strays, both at the top and at the bottom
 constexpr double kMostShift = 10;

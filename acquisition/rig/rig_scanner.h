@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated scanner: stage, camera, board and faults.
+// The simulated scanner: table, laser, camera and board, with the faults that the options request.
 #pragma once
 
 #include <cstdint>

@@ -68,7 +68,7 @@ class Scan : private ScanWatch {
   void work();
   Expected<std::shared_ptr<const ScannedSurface>> run_and_mesh();
   void enter(ScanState state);  // the caller must hold mutex_
-  double now() const;           // seconds
+  double now() const;           // returns the time in seconds
 
   const Scanner scanner_;
   const ScanRequest request_;

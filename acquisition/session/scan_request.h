@@ -14,8 +14,8 @@ namespace vitrine::acquisition {
 
 inline constexpr int kLeastSteps = 8, kMostSteps = 36'000;
 inline constexpr int kMostCalibration = 1'000'000'000;       // largest number of a calibration
-inline constexpr double kMostExposure = 1e6;                 // microseconds
-inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // degrees, mm
+inline constexpr double kMostExposure = 1e6;                 // in microseconds
+inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // in degrees and in mm
 
 // Names of the values of SamplingMethod and StripeMethod, in the order of the enumerations.
 inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant", "paper",

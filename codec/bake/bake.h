@@ -18,7 +18,7 @@ namespace vitrine::inline codec {
 
 struct BakedPicture {
   PictureRole role = PictureRole::kBaseColour;
-  std::uint32_t side = 0;           // pixels per side
+  std::uint32_t side = 0;           // width and height in pixels
   std::vector<std::uint8_t> bytes;  // contents of a WebP file
 };
 

@@ -18,7 +18,7 @@ struct MeasureOptions {
 };
 
 struct OneWayDistance {
-  double rms = 0, p95 = 0, max = 0;  // model units
+  double rms = 0, p95 = 0, max = 0;  // distances in model units
 };
 
 struct SurfaceDistance {

@@ -10,7 +10,7 @@ namespace vitrine::inline codec {
 
 struct FileBlock {
   Sha256 sha256{};
-  std::uint64_t offset = 0, length = 0;  // bytes; the offset is from the start of the file
+  std::uint64_t offset = 0, length = 0;  // in bytes; the offset is from the start of the file
 };
 
 // Calls visit(FileBlock) for the base mesh, the atlas, each picture and each optional block. These

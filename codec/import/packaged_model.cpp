@@ -14,7 +14,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Extensions of models. Formats that can store more data come first.
+// File name extensions of models. Formats that can store more data come first.
 constexpr std::array<std::string_view, std::size(kImportFormats)> kByContents{
     ".glb", ".gltf", ".obj", ".ply", ".3mf", ".off", ".stl"};
 

@@ -17,7 +17,7 @@ struct RepairedMesh {
   // The repairs made during import, then one line for each kind of repair made here.
   std::vector<std::string> repairs;
   std::uint64_t boundary_edges = 0;
-  std::uint64_t components = 0;  // faces that share a vertex are connected
+  std::uint64_t components = 0;  // number of components; faces that share a vertex are connected
   Texturing texturing;           // texturing of `mesh`
 };
 

@@ -100,7 +100,7 @@ static Response cancel_job(const Request& request, Services& services) {
   return with_own_job(request, services, [&](const JobStatus& job) {
     const auto cancelled = services.scans.jobs().cancel(job.record.id);
     if (!cancelled) return refused(cancelled.error(), request, services);
-    // 202 (Accepted), because the job ends only at its next step
+    // Responds with 202 (Accepted), because the job ends only at its next step.
     return json_answer(job_json(*cancelled), 202);
   });
 }

@@ -16,7 +16,7 @@
 namespace vitrine::server {
 
 struct BackupReport {
-  std::uint64_t models = 0, files = 0, bytes = 0;  // bytes: total size of the files
+  std::uint64_t models = 0, files = 0, bytes = 0;  // `bytes` is the total size of the files
   // One line for each file of the installation that the backup lacks, and for each fault of the
   // catalogue.
   std::vector<std::string> damaged;

@@ -29,7 +29,7 @@ enum class ModelState : std::uint8_t { kDraft = 0, kPublished = 1 };
 // The pictures of a texture in a .pmesh file. All numbers are 0 if the model has no texture.
 struct TextureSummary {
   std::uint32_t count = 0;         // number of kinds of pictures: base colours, normals, ...
-  std::uint32_t largest_side = 0;  // in pixels
+  std::uint32_t largest_side = 0;  // width and height of the largest picture, in pixels
   std::uint64_t bytes = 0;         // total size of all pictures, in all sizes
   bool operator==(const TextureSummary&) const = default;
 };

@@ -81,7 +81,7 @@ struct ScanEntry {
   std::string scanner;
   bool is_public = false;  // whether the running scan is visible without a token
   std::string title;
-  std::string parameters;   // JSON
+  std::string parameters;   // parameters of the scan, as JSON
   int steps = 0, step = 0;  // steps per revolution of the turntable, and number of steps done
   std::uint64_t points = 0;
   int calibration = 0;  // number of the calibration that the scan uses

@@ -44,7 +44,7 @@ struct HttpOptions {
   Networks proxies = {};
   std::uint32_t request_rate = 0;            // requests per second; see RateLimit
   std::uint32_t min_rate = 0;                // bytes per second; see Pace
-  std::uint64_t answer_memory = UINT64_MAX;  // bytes; see BodiesInFlight
+  std::uint64_t answer_memory = UINT64_MAX;  // limit in bytes; see BodiesInFlight
 };
 
 // The parts of the daemon that the server uses. They must be thread-safe and outlive the server.

@@ -21,8 +21,7 @@ void Scrubber::start(std::uint64_t rate) {
         } else {
           check_damaged();
         }
-      } catch (
-          const std::exception& fault) {  // for example std::bad_alloc; continues after the pause
+      } catch (const std::exception& fault) {  // such as std::bad_alloc; continues after the pause
         needs_.events.event(Severity::kError, fault.what());
       }
       if (!wait_until(std::min(next, Clock::now() + kRetryAfter))) return;

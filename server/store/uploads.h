@@ -26,7 +26,7 @@ struct Upload {
   // upload.
   std::uint64_t length = 0;
   bool is_length_known = true;
-  std::uint64_t offset = 0;  // bytes received
+  std::uint64_t offset = 0;  // number of bytes received
   std::string metadata;      // printable ASCII, as the client sent it
   std::int64_t expires = 0;  // milliseconds since 1970, UTC; extended by each part received
 

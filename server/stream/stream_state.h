@@ -13,7 +13,7 @@
 namespace vitrine::server {
 
 inline constexpr std::uint64_t kFirstCredit = 64 * 1024;
-inline constexpr std::uint64_t kMaxCredit = 64u << 20;  // bytes; credit beyond this is ignored
+inline constexpr std::uint64_t kMaxCredit = 64u << 20;  // in bytes; credit beyond this is ignored
 
 class StreamState {
  public:

@@ -22,8 +22,8 @@ import { Viewer } from "./viewer.mjs";
 const kSides = [220, 200, 180], kBriefSides = [70, 60]; // vertices per side of the meshes
 const kViewers = 3;
 const kAway = 20_000; // time in ms for which first PostgreSQL and then the object store are stopped
-const kLongestGap = 5_000; // ms: maximum time in which a viewer receives no data after a serving replica is killed or a back end is stopped
-const kDeadline = 200_000; // ms: time limit of each step
+const kLongestGap = 5_000; // longest time, in ms, without data for a viewer after a serving replica is killed or a back end is stopped
+const kDeadline = 200_000; // time limit of each step, in ms
 const rounds = Number(process.env.VITRINE_ROUNDS ?? 1);
 const seed = Number(process.env.VITRINE_SEED ?? Date.now() % 1_000_000);
 const random = chance(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-const kWindow = 16; // bytes
+const kWindow = 16; // length of a window, in bytes
 
 /**
  * Content that visitors must not get. Stores its adjacent windows of kWindow bytes, and therefore

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFocal = 3'000;  // focal length in pixels
 // Position in mm: x and y in the laser plane, then the distance from the plane.
 const Vec3 kCamera = {250, 60, 160};
-constexpr int kWidth = 1'300, kHeight = 1'030;  // pixels
+constexpr int kWidth = 1'300, kHeight = 1'030;  // size of a picture, in pixels
 
 // Returns the calibration of a camera without distortion that looks at the axis.
 Calibration calibration() {

@@ -12,7 +12,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kSpacing = 1, kReach = .5;  // mm
+constexpr double kSpacing = 1, kReach = .5;  // in mm
 
 TEST(PointFeatures, DoNotDependOnThePose) {
   const SurfacePoints points = evenly_spaced(scan_of(bumpy, {}, 0).mesh, kSpacing);

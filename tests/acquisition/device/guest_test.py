@@ -27,7 +27,7 @@ MODULES = ("usb-common usbcore xhci-hcd xhci-pci usbserial ftdi_sio cdc-acm conf
 KERNEL, BIN, TESTS = (Path(word) for word in sys.argv[1:4])
 PROGRAMS = [TESTS / "drive_board", TESTS / "serve_firmware", BIN / "vitrine-guardian"]
 FTDI, ACM = "0403:6001", "0525:a4a7"
-PATIENCE = 240  # seconds; enough on a busy machine
+PATIENCE = 240  # time limit in seconds; enough on a busy machine
 
 
 def missing():

@@ -15,7 +15,7 @@
 
 namespace vitrine::test {
 
-inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // pixels
+inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // size of a picture, in pixels
 inline constexpr double kFakePixel = 0.25;                // width of a pixel in mm
 // First row in which kTwoSurfaces shows a second surface behind the first.
 inline constexpr int kFakeOtherRow = 12;

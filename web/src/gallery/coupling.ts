@@ -41,7 +41,8 @@ export class Coupling {
   #goHome(): void {
     for (const viewer of this.#units.keys()) {
       if (!viewer.getCameraOrbit()) continue;
-      // The second text differs from the first one, so that the viewer obeys it if it has the first one already.
+      // The viewer ignores an attribute that is set to its present value. Setting another value
+      // first makes the viewer apply the second one.
       for (const orbit of ["auto auto 100%", "auto auto auto"]) viewer.setAttribute("camera-orbit", orbit);
       viewer.setAttribute("camera-target", "auto auto auto");
       const orbit = viewer.getCameraOrbit(), target = viewer.getCameraTarget();
