@@ -193,7 +193,8 @@ class AtlasPass {
 
   const Connectivity& mesh_;
   const std::vector<Vec3i>& positions_;
-  // number of corners of faces; corners of faces that close boundary loops follow them
+  // Number of corners of real faces. The faces that close boundary loops have the corners after
+  // these.
   const Corner corners_;
   const BaseAtlas& truth_;
   Coder& coder_;

@@ -58,7 +58,8 @@ struct PatchCover::Prism {
   // Twice the triangle's area in squared units of the prism, and the reciprocal of this, rounded
   // up.
   float twice_area = 0, per_area = 0;
-  // lane 0: normal and offset of the triangle's plane; lanes 1 to 3: of the walls
+  // Lane 0 holds the normal and the offset of the triangle's plane. Lanes 1 to 3 hold those of the
+  // walls.
   Lanes x{}, y{}, z{}, offset{};
   Lanes centre{};
 

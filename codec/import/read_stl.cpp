@@ -24,7 +24,7 @@ std::string_view as_text(std::span<const std::uint8_t> bytes) {
 // Facets in file order. Every three consecutive positions are the corners of one facet.
 struct Facets {
   std::vector<Vec3> corners;
-  // one per facet, or kNoColour; trailing entries may be missing
+  // One colour per facet, or kNoColour. Colours of the last facets may be missing.
   std::vector<StatedColour> colours;
 
   void paint(const StatedColour& colour) {

@@ -26,7 +26,7 @@ constexpr std::uint32_t kMaxRows = 100'000;
 
 // A viewer's report. A visit has several reports if its page was hidden and shown again.
 struct VisitReport {
-  std::uint32_t seconds = 0;              // since the previous report of this visit
+  std::uint32_t seconds = 0;              // time since the previous report of this visit
   std::uint32_t level = 0;                // the finest level shown so far in this visit
   std::optional<std::uint32_t> previous;  // `level` of the previous report; nullopt: a new visit
 };

@@ -12,11 +12,11 @@
 namespace vitrine::bench {
 namespace {
 
-// structural similarity to the source
+// Structural similarities to the source for which numbers of bytes are compared.
 constexpr std::array<double, 3> kTargets = {0.90, 0.95, 0.98};
-// largest ratio of our bytes to those of the best separate file
+// Largest accepted ratio of our bytes to those of the best separate file.
 constexpr double kMaxSingle = 1.15;
-// largest ratio of our bytes to those of a client that fetches each rung
+// Largest accepted ratio of our bytes to those of a client that fetches each rung.
 constexpr double kMaxClient = 0.7;
 constexpr double kLeastFinest = 0.99;  // least structural similarity of the finest state
 

@@ -9,11 +9,11 @@
 namespace vitrine::bench {
 namespace {
 
-// largest geometric mean of the ratios to Draco's coordinates
+// Largest accepted geometric mean of the ratios of our coordinates' bytes to those of Draco.
 constexpr double kMaxCoordinates = 0.75;
-// largest ratio to the bytes of the same model without texture
+// Largest accepted ratio of the positions' bytes to those in the same model without texture.
 constexpr double kMaxPositions = 1.03;
-// largest ratio to the bytes of Draco files and unmasked pictures
+// Largest accepted ratio of the file's bytes to those of a Draco file with unmasked pictures.
 constexpr double kMaxWhole = 0.9;
 
 double bytes_of_pictures(const TexturedModel& model) {

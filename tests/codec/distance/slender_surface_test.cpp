@@ -77,7 +77,7 @@ std::uint64_t nodes_visited(const TriangleMesh& mesh) {
 TEST(SlenderSurface, ASearchVisitsHardlyMoreNodesInALargerFan) {
   for (const auto make : {fan, pages}) {
     const std::uint64_t few = nodes_visited(make(4'000)), many = nodes_visited(make(64'000));
-    EXPECT_LE(many, 5 * few);  // with axis-aligned boxes alone: 16 times
+    EXPECT_LE(many, 5 * few);  // 16 * few with axis-aligned boxes alone
     EXPECT_LE(many, 600u);
   }
 }
