@@ -22,7 +22,7 @@ bool meets_box(const TriangleBvh::Node& box, const Vec3& origin, const Vec3& inv
   return enter <= leave;
 }
 
-// [MT97]
+// Uses the algorithm of [MT97].
 bool meets_triangle(const TrianglePoints& t, const Vec3& origin, const Vec3& direction) {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, p = cross(direction, ac);
   const double determinant = dot(ab, p);

@@ -75,7 +75,7 @@ ImageLine refined(std::span<const cv::Point2f> points, const ImageLine& around) 
   std::vector<cv::Point2f> on_line;
   std::ranges::copy_if(points, std::back_inserter(on_line),
                        [&](const cv::Point2f& p) { return around.distance(p) <= near; });
-  cv::Vec4f line;  // direction, then a point
+  cv::Vec4f line;  // direction of the line, then a point on it
   cv::fitLine(on_line, line, cv::DIST_L2, 0, 0.001, 0.001);
   return {{line[2], line[3]}, {line[1], -line[0]}};
 }

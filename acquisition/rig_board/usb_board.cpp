@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 // Seconds by which the answer "none yet" is delayed. libusb asks for finished transfers as long as
 // the device file is writable. The simulated file is a socket and therefore always writable, so
 // without the delay libusb would poll in a tight loop.
-constexpr double kHold = 0.0015;  // seconds
+constexpr double kHold = 0.0015;
 // Interval in seconds at which FTDI chips send their status even if they have no data.
 constexpr double kFtdiIdle = 0.016;
 constexpr std::size_t kMostUnread = 4096;

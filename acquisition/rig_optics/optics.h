@@ -19,7 +19,7 @@ struct LaserSheet {
   // A unit vector. Except for the second laser, its x is 0, so the sheet meets the table along the
   // x axis.
   Vec3 normal{0, 1, 0};
-  double offset = 0;  // mm
+  double offset = 0;  // distance of the plane from the origin along `normal`, in mm
   Vec3 source;
   double sigma = 0.13;  // standard deviation of the sheet's cross section, in mm
 };

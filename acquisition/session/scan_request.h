@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant"
 inline constexpr std::array<std::string_view, 3> kStripeNames = {"derivative-of-gaussian",
                                                                  "centre-of-mass", "blais-rioux"};
 
-inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // points
+inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // numbers of points
 
 struct ScanRequest {
   int steps = 720;                    // steps in one revolution, kLeastSteps to kMostSteps
@@ -42,7 +42,7 @@ struct ScanRecord {
   ScanRequest request;
   std::string created;             // UTC, such as 2026-11-23T08:00:00Z
   std::string scanner;             // name of the scanner
-  std::string camera;              // serial number
+  std::string camera;              // the camera's serial number
   CameraSettings settings;         // the settings that the scan used
   std::string board;               // dialect and serial number of the board
   int calibration = 0;             // number of the calibration

@@ -15,7 +15,7 @@ using ChartTriangles = std::vector<std::array<std::array<double, 2>, 3>>;
 // Point `uv` of chart i moves to uv * scale + offset[i], which lies in the square [0, 1]^2.
 struct Packing {
   double scale = 1;
-  std::vector<std::array<double, 2>> offset;  // one per chart
+  std::vector<std::array<double, 2>> offset;  // offset of each chart
 };
 
 // Places all charts at the same scale, as large as possible and without rotation. Points of

@@ -37,7 +37,7 @@ class Walk {
 
  private:
   const CornerTable& table_;
-  std::vector<bool> is_done_;  // per face
+  std::vector<bool> is_done_;  // per face: whether the walk has finished it
   CodedOrder order_;
 };
 

@@ -11,7 +11,7 @@
 namespace vitrine::inline codec {
 
 struct CornerTable {
-  std::vector<VertexId> vertex;  // per corner
+  std::vector<VertexId> vertex;  // per corner: its vertex
   std::vector<Corner> opposite;  // per corner; kNoCorner if its opposite edge is at the boundary
   // per vertex: one of its corners; at the boundary, the last one counter-clockwise
   std::vector<Corner> leftmost;

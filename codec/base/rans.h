@@ -79,7 +79,7 @@ class PlainBits {
 
  private:
   std::span<const std::uint8_t> bytes_;
-  std::size_t position_ = 0;  // in bits
+  std::size_t position_ = 0;  // number of bits read so far
   bool is_ok_ = true;
 };
 

@@ -212,7 +212,7 @@ class SourcePass {
   const Corner corners_;
   Texturing& texturing_;
   Coder& coder_;
-  std::vector<bool> is_queued_, is_coded_;  // per face
+  std::vector<bool> is_queued_, is_coded_;  // one flag per face
   std::vector<Corner> queue_;               // faces still to be coded by code_from()
   // Per set of coordinates and vertex: the corner coded last. The vector of a set that is not coded
   // is empty.

@@ -55,7 +55,7 @@ enum class PictureRole : std::uint8_t {
   kBaseColour = 0,  // sRGB, and opacity unless the alpha mode is kOpaque
   kNormal = 1,      // normals in tangent space, as glTF has them
   kSurface = 2,     // occlusion (red), roughness (green), metallic (blue)
-  kEmission = 3,    // sRGB
+  kEmission = 3,    // emitted colours in sRGB
 };
 inline constexpr std::uint8_t kPictureRoles = 4;
 

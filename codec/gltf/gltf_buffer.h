@@ -52,7 +52,7 @@ class GltfBuffer {
   std::map<std::uint64_t, Expected<std::span<const std::uint8_t>>> buffers_;
   // key: index of the compressed buffer view
   std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;
-  std::set<std::uint64_t> clipped_;  // indices of buffer views
+  std::set<std::uint64_t> clipped_;  // indices of the buffer views that were clipped
   std::uint64_t spent_ = 0;
 };
 

@@ -21,7 +21,7 @@ double doubled_area(const Vec3& a, const Vec3& b);
 struct TriangleShape {
   TriangleShape(const Vec3& a, const Vec3& b);
 
-  double area;                 // doubled_area()
+  double area;                 // result of doubled_area()
   double cot_a, cot_b, cot_0;  // halved cotangents of the corners
 };
 

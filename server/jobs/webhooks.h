@@ -22,7 +22,7 @@ namespace vitrine::server {
 struct WebhookMessage {
   std::string url;
   std::string id;    // ID of the message; all attempts to send it, by any daemon, use the same ID
-  std::string json;  // the body
+  std::string json;  // body of the message
   // Called right before each post. Returns false if another daemon has already posted the message.
   std::function<bool()> may;
   // Called when the server has accepted the message or the object has given up. Not called after

@@ -102,7 +102,7 @@ async function json(one, method, path, role, value) {
 
 /** Waits for the end of a job. Returns its model. */
 async function ended(job) {
-  await ask(replicas[0], "GET", `/api/v1/jobs/${job}/events`, "operator"); // ends with the job
+  await ask(replicas[0], "GET", `/api/v1/jobs/${job}/events`, "operator"); // the response ends when the job ends
   const { state, model, error } = await json(replicas[0], "GET", `/jobs/${job}`, "operator");
   assert.equal(state, "done", error);
   return model;

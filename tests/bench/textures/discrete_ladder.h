@@ -29,7 +29,7 @@ class DiscreteLadder {
   StateBytes one_after_the_other() const;
 
  private:
-  using Sizes = std::vector<SizedPicture>;  // ascending
+  using Sizes = std::vector<SizedPicture>;  // in ascending order of size
   std::vector<Picture> pictures_of(std::size_t set) const;
   std::vector<double> picture_bytes(bool has_smaller) const;
 
