@@ -12,8 +12,8 @@ namespace vitrine::acquisition::rig {
 // The faults. `step` is RigFault::step: the number of the motion after which the fault occurs.
 enum class FaultKind {
   kLostPackets,    // after motion `step`, one frame in twenty lacks packets
-  kCameraUnplug,   // after motion `step`, the camera is absent for kUnplugged
-  kUsbUnplug,      // after motion `step`, the board is absent for kUnplugged
+  kCameraUnplug,   // after motion `step`, the camera is absent for the time kUnplugged
+  kUsbUnplug,      // after motion `step`, the board is absent for the time kUnplugged
   kMotorStall,     // after motion `step`, the table does not turn until the board restarts
   kMissedTrigger,  // the first frame after motion `step` is not sent
   kDrift,          // after motion `step`, the laser shifts by kCreepMm with each motion

@@ -21,7 +21,7 @@ struct SizedPicture {
 
 // Returns picture number `picture` of a model, and smaller versions down to kLeastSide, the
 // smallest first. Each has half the side of the next. Texels outside all charts are filled
-// smoothly, as in our pictures. Fails if the picture is not square.
+// smoothly, as in the pictures of a .pmesh. Fails if the picture is not square.
 std::vector<SizedPicture> masked_pictures(const TexturedModel& model, std::uint32_t picture);
 
 // Returns picture number `picture` of a model, unchanged.
