@@ -20,7 +20,7 @@ namespace vitrine::acquisition {
 inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
 
 struct JournalContents {
-  std::vector<Profile> profiles;  // index: the step, from 0
+  std::vector<Profile> profiles;  // indexed by step, from 0
   // Stripe counts; the index is the step. Records of kind kUncounted give only an approximate
   // number of rows.
   std::vector<StripeCount> stripes;

@@ -32,7 +32,7 @@ struct SurfaceReport {
   std::uint64_t smoothed = 0;    // number of points moved by smoothing (smooth.h)
   std::uint64_t sampled = 0;     // number of points left after sampling
   std::uint64_t holes = 0;       // number of holes closed in the mesh (close_holes.h)
-  double spacing = 0;            // the s_max that was used, mm
+  double spacing = 0;            // the distance s_max ([WLL] eq. 5) that was used, in mm
 };
 
 struct ScannedSurface {

@@ -163,7 +163,7 @@ class Predictor {
   // Three integers per vertex, in coded order. They hold the correction until the value is
   // predicted.
   std::vector<std::uint32_t> values_;
-  // indexed by the number of parallelograms of a vertex, minus 1
+  // Entry i belongs to vertices with i + 1 parallelograms.
   std::array<Exclusions, kMostParallelograms> exclusions_;
   bool has_several_ = false;
   Range range_{};

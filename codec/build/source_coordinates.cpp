@@ -69,7 +69,7 @@ struct SetModel {
     return {u, model[1].code(coder, expected[1], truth[1])};
   }
 
-  std::array<AdaptiveBit, 3> is_same;  // index: number of the candidate
+  std::array<AdaptiveBit, 3> is_same;  // one bit model for each of the three candidates
   std::array<std::array<FloatModel, 2>, 2> at;
   TextureCoordinates last{};
 };

@@ -204,7 +204,7 @@ class AtlasPass {
   std::vector<bool> is_known_;        // per wedge: whether it is coded already
   std::vector<Corner> queue_;         // faces still to be coded by code_from()
   std::array<AdaptiveBit, 3> seam_;
-  std::array<PairModel, 3> model_;  // index: number of the face's other two corners that are known
+  std::array<PairModel, 3> model_;  // indexed by how many of the face's other two corners are known
   Vec2i last_;                      // the first coordinates of the previous chart
   std::uint32_t shift_ = 0;         // all coordinates are multiples of 2^shift
 };

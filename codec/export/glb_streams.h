@@ -30,7 +30,7 @@ struct GlbStream {
   std::uint32_t components = 3;  // number of components per element
   bool is_normalised = false;
   std::size_t count = 0, stride = 0;  // number of elements, and bytes from one to the next
-  // the elements, in compressed form if `mode` is not empty
+  // The bytes of the elements, in compressed form if `mode` is not empty.
   std::vector<std::uint8_t> bytes;
   std::string_view mode = {}, filter = {};  // values for EXT_meshopt_compression
   std::optional<Bounds> bounds = {};        // bounds of the stored elements; only for positions

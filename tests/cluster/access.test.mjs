@@ -255,7 +255,7 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     for (const { bytes } of [old, now, measured]) bytes.forEach((part) => secrets.hide(part));
     const open = shown === "all" ? now : shown === "none" ? { bytes: [] } : await pictured(made.model, shown);
     open.bytes.forEach((part) => secrets.reveal(part));
-    secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/`)); // exports state their source
+    secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/`)); // every export states this URL as its source
     if (state === "published") measured.bytes.forEach((part) => secrets.reveal(part));
     assert.ok(state === "published" || state === "in cm" || secrets.size > 100, "nothing is hidden, so this test proves nothing");
     const visit = { state: `${subject} is ${state}`, made, secrets, names: [...new Set([...old.names, ...now.names])] };

@@ -18,7 +18,8 @@ const values = new Float32Array(buffer, 12 + 12 * vertices, width * vertices);
 const faces = new Uint32Array(buffer, 12 + 4 * (3 + width) * vertices, count);
 
 const kAttributeWeight = 0.5; // as in codec/simplify/TEXTURES.md, section 1
-// relative to the requested number of faces; more faces than this mean that seams prevent collapses
+// If a result has more than this multiple of the requested number of faces, seams have prevented
+// collapses.
 const kStuck = 1.2;
 
 function reduce(target, flags) {
