@@ -11,8 +11,9 @@
 //                (write_textured_mesh: also takes a Texturing; returns the file and its pictures)
 //
 // verify_model proves that a `.pmesh` is intact and, if the original is given, that it is lossless.
-// compare_appearance tells how alike two meshes look: PSNR and SSIM of pictures from twelve sides.
-// read_file and write_file_atomically serve programs that have no file functions of their own.
+// compare_appearance measures how alike two meshes look: PSNR and SSIM of pictures from twelve
+// sides. read_file and write_file_atomically serve programs that have no file functions of their
+// own.
 //
 // Coordinates and errors are doubles in the model's unit (Manifest::unit). Functions that can fail
 // return Expected<T>. The message of its Error is one line: the fault, its place, the next step.

@@ -10,7 +10,8 @@ import { meshFormats } from "./mesh_formats.mjs";
 
 const root = dirname(fileURLToPath(import.meta.url));
 const dist = join(root, "dist");
-const published = join(dist, "package"); // the files of the npm package; the other files are the daemon's
+// folder of the npm package; the files beside it are the daemon's
+const published = join(dist, "package");
 const wasm = process.argv[2];
 if (!wasm) throw new Error("name the decoder: node build.mjs progressive-mesh.wasm");
 
@@ -42,7 +43,7 @@ const threeBeside = {
   },
 };
 
-/** Takes the worker of the npm package from a file of its own. */
+/** Makes the npm package load the worker from a file of its own. */
 const workerBeside = {
   name: "worker",
   setup({ onResolve }) {

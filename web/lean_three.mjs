@@ -10,7 +10,7 @@ const three = createRequire(import.meta.url).resolve("three/src/Three.js");
 const kUnusedShader = /ShaderLib\/(distanceRGBA|linedashed|meshlambert|meshmatcap|meshnormal|meshphong|meshtoon|sprite)\.glsl\.js$/;
 const kNoShader = `export const vertex = "", fragment = "";`;
 
-/** The part of the interface that the renderer calls if there is no session. */
+/** The part of WebXRManager that the renderer calls even if there is no XR session. */
 const kNoXr = `export class WebXRManager {
   enabled = false;
   isPresenting = false;
@@ -31,12 +31,15 @@ export const leanThree = {
   },
 };
 
-/** Shortens all template literals of a module, which are shaders. */
+/** Shortens all template literals of a module. In these modules, template literals are shaders. */
 function withShortShaders(module) {
   return module.replace(/`([^`]*)`/g, (_, shader) => `\`\n${shortShader(shader)}\n\``);
 }
 
-/** Removes comments, empty lines and blanks that have no meaning from GLSL. Keeps the lines, because directives need theirs. */
+/**
+ * Removes comments, empty lines and blanks that have no meaning from GLSL. Does not join lines, because each
+ * directive needs a line of its own.
+ */
 export function shortShader(glsl) {
   return glsl.replace(/\/\*[^]*?\*\//g, " ").replace(/\/\/.*/g, "").split("\n").map(shortLine).filter((line) => line !== "").join("\n");
 }

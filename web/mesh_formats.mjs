@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the table of the mesh formats that the server can import. The table is in a C++ source
-// file.
+// Reads the table of the mesh formats that the server can import. The table is part of a C++
+// header.
 import { readFile } from "node:fs/promises";
 
 const table = await readFile(new URL("../codec/import/formats.h", import.meta.url), "utf8");

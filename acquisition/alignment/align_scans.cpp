@@ -35,7 +35,7 @@ Expected<void> check(std::span<const PoseScan> scans) {
   return {};
 }
 
-// Returns all pairs; those with the largest overlap come first.
+// Returns all pairs of scans, sorted by overlap, the largest overlap first.
 std::vector<Edge> edges_of(const std::vector<PreparedScan>& scans,
                            const AlignmentOptions& options) {
   std::vector<Edge> edges;
@@ -70,7 +70,8 @@ Unexpected not_joined(std::span<const PoseScan> scans, const std::vector<Edge>& 
                           names_of(scans, *edge)));
 }
 
-// Joins the scans, starting at the first, by the pairs with the largest overlap.
+// Chains the scans together, starting with the first scan. Each step adds a scan by the pair with
+// the largest overlap. Returns each scan's motion into the frame of the first scan.
 Expected<std::vector<RigidMotion>> join(std::span<const PoseScan> scans,
                                         const std::vector<Edge>& edges) {
   std::vector<RigidMotion> motions(scans.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how scans of one object in several poses lie on each other.
+// Aligns scans of one object in several poses: finds the rigid motion of each scan into a common
+// frame.
 #pragma once
 
 #include <span>
@@ -12,28 +13,29 @@
 namespace vitrine::acquisition {
 
 struct AlignmentOptions {
-  double reach = .5;       // mm: surfaces closer than this count as the same surface
-  std::uint64_t seed = 1;  // of the random search; equal seeds give equal results
+  double reach = .5;       // distance in mm below which two surfaces count as one
+  std::uint64_t seed = 1;  // seed of the random search; equal seeds give equal results
 };
 
-// How two scans lie on each other in the result.
+// How well two scans agree in the result.
 struct PairQuality {
   std::size_t from = 0, to = 0;
-  double overlap = 0, rms = 0, crossed = 0;  // as in PairFit
+  double overlap = 0, rms = 0, crossed = 0;  // same meaning as in PairFit
 };
 
 struct Alignment {
-  // The motion of each scan into the frame of the first scan; identity for the first.
+  // The motion of each scan into the frame of the first scan; the identity for the first scan.
   std::vector<RigidMotion> motions;
-  std::vector<PairQuality> pairs;  // all pairs that overlap, by `from` and then `to`
+  // all pairs of scans that overlap, sorted by `from`, then by `to`
+  std::vector<PairQuality> pairs;
 };
 
-// Finds the motions of 2 to 16 scans. Searches for the pose of each pair by point features
-// ([RBB09]) and random triples ([FB81]), refines all candidates and judges each by the sight lines
-// of both scans. Joins the scans by the pairs of the largest overlap. Then distributes the error
-// over all pairs and judges them again. Refuses a result that may be wrong with kBadInput, and
-// names the pair: too little overlap, or several poses that fit about equally well, as those of a
-// vase do.
+// Aligns 2 to 16 scans. Searches for the relative pose of each pair by matching point features
+// ([RBB09]) and trying random triples of matches ([FB81]). Refines all candidates and judges each
+// by the sight lines of both scans. Then chains the scans together by the pairs with the largest
+// overlap, distributes the error over all pairs, and judges the pairs again. Fails with kBadInput,
+// naming the pair, if the result may be wrong: if the overlap is too small, or if several poses fit
+// about equally well, as for a vase.
 Expected<Alignment> align_scans(std::span<const PoseScan> scans,
                                 const AlignmentOptions& options = {});
 

@@ -8,15 +8,16 @@
 namespace vitrine::acquisition {
 namespace {
 
-using Columns = std::array<Vec3, 3>;  // a matrix by its columns
+using Columns = std::array<Vec3, 3>;  // a 3 x 3 matrix, as its three columns
 
-// Four pixels around the middle of the mapped area, and their places in the laser plane.
+// Four pixels around the middle (u, v) of the mapped area, and their positions in the laser plane.
 struct Quadrangle {
   double u = 0, v = 0, half_u = 0, half_v = 0;
-  std::array<PlanePoint, 4> at;  // of (-,-), (+,-), (+,+), (-,+)
+  std::array<PlanePoint, 4> at;  // positions of the pixels (-,-), (+,-), (+,+), (-,+)
 };
 
-// Returns the largest quadrangle of a few sizes that the map covers.
+// Returns the largest of four sizes of quadrangles whose corners the map covers. Returns nullopt if
+// it covers none of them.
 std::optional<Quadrangle> quadrangle_of(const PlaneMap& map) {
   double low_u = 1e9, high_u = -1e9, low_v = 1e9, high_v = -1e9;
   const auto hull = map.hull();
@@ -38,7 +39,7 @@ std::optional<Quadrangle> quadrangle_of(const PlaneMap& map) {
   return std::nullopt;
 }
 
-// Returns the homography from the unit square to the four places ([Heckbert89]).
+// Returns the homography from the unit square to the four points ([Heckbert89]).
 std::optional<Columns> from_unit_square(const std::array<PlanePoint, 4>& p) {
   const double dx1 = p[1].x - p[2].x, dx2 = p[3].x - p[2].x,
                dx3 = p[0].x - p[1].x + p[2].x - p[3].x;
@@ -52,13 +53,13 @@ std::optional<Columns> from_unit_square(const std::array<PlanePoint, 4>& p) {
                  Vec3{p[0].x, p[0].y, 1}};
 }
 
-// Returns a multiple of the inverse of the homography.
+// Returns the inverse of the homography, up to a factor.
 Columns inverse_of(const Columns& m) {
   const Vec3 a = cross(m[1], m[2]), b = cross(m[2], m[0]), c = cross(m[0], m[1]);
   return {Vec3{a.x, b.x, c.x}, Vec3{a.y, b.y, c.y}, Vec3{a.z, b.z, c.z}};
 }
 
-// Returns the homography from the plane to pixels relative to the region's middle.
+// Returns the homography from the laser plane to pixels relative to the middle of the region.
 std::optional<Columns> to_pixels(const Calibration& calibration) {
   const auto q = quadrangle_of(calibration.map);
   const auto square = q ? from_unit_square(q->at) : std::nullopt;
@@ -77,8 +78,8 @@ std::optional<TablePoint> camera_place(const Calibration& calibration) {
   const auto pixels = to_pixels(calibration);
   if (!pixels) return std::nullopt;
   const auto& [p, q, origin] = *pixels;
-  // The directions of x and y have equal lengths and are perpendicular once u and v are divided by
-  // the focal length f. Both conditions are linear in 1 / f².
+  // Uses two conditions. If u and v are divided by the focal length f, the images of the x and y
+  // directions have equal lengths and are perpendicular. Both conditions are linear in 1 / f².
   const double skew = p.x * q.x + p.y * q.y,
                stretch = p.x * p.x + p.y * p.y - q.x * q.x - q.y * q.y, skew_depth = p.z * q.z,
                stretch_depth = p.z * p.z - q.z * q.z,
@@ -91,7 +92,8 @@ std::optional<TablePoint> camera_place(const Calibration& calibration) {
   const Vec3 x = scaled(p) * (front / size), y = scaled(q) * (front / size),
              shift = scaled(origin) * (front / size);
   TurntableAxis axis = calibration.axis;
-  axis.offset += dot(cross(x, y), shift);  // about() takes points of the plane
+  // moves the axis, because about() takes points of the laser plane
+  axis.offset += dot(cross(x, y), shift);
   return about(axis, {-dot(x, shift), -dot(y, shift)});
 }
 

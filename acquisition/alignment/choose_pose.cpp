@@ -4,14 +4,15 @@
 namespace vitrine::acquisition {
 namespace {
 
-// In trials at the simulated scanner, right poses crossed at most .016 of the lines. Most wrong
-// ones crossed more than .03; their rms refuses the others, which overlap little.
+// Largest share of crossed sight lines of a correct pose. In trials with the simulated scanner,
+// correct poses crossed at most 0.016 of the lines. Most wrong poses crossed more than 0.03. The
+// remaining wrong poses overlapped little and were rejected by their rms distance.
 constexpr double kMostCrossed = .03;
-// In multiples of `reach`. In trials at the simulated scanner, right poses had an rms of at most
-// .09 of `reach`, wrong ones of at least .34.
+// Largest rms distance of a correct pose, in multiples of `reach`. In trials with the simulated
+// scanner, correct poses had at most 0.09, wrong poses at least 0.34.
 constexpr double kMostSpread = .3;
 constexpr double kLeastOverlap = .15;
-// Another pose with at least this share of the best overlap makes a pair ambiguous.
+// A pair is ambiguous if another pose has at least this share of the best pose's overlap.
 constexpr double kRival = .7;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses among the judged poses of a pair of scans, or refuses to.
+// Chooses one of the judged poses of a pair of scans, unless the choice is doubtful.
 #pragma once
 
 #include <span>
@@ -16,14 +16,15 @@ enum class PoseVerdict {
 
 struct PosesOfPair {
   PoseVerdict verdict = PoseVerdict::kNone;
-  PairFit best;  // has no overlap if no pose fits
+  PairFit best;  // the chosen pose; its overlap is 0 if no pose fits
 };
 
-// Returns whether the measurements rule the pose out: sight lines are crossed, or what overlaps
-// does not lie close together.
+// Returns whether the measurements contradict the pose: the surfaces cross too many sight lines, or
+// the overlapping surfaces are too far apart.
 bool is_contradicted(const PairFit& fit, double reach);
 
-// Chooses the fit of the largest overlap that nothing contradicts. `fits` are those of pair_fits().
+// Chooses the fit with the largest overlap that the measurements do not contradict. `fits` is the
+// result of pair_fits().
 PosesOfPair choose_pose(std::span<const PairFit> fits, double reach);
 
 }  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes one surface of aligned scans.
+// Combines aligned scans into one surface.
 #pragma once
 
 #include <span>
@@ -8,12 +8,11 @@
 
 namespace vitrine::acquisition {
 
-// Returns one mesh, in mm, in the frame of the first scan, without colours. `motions` has the
-// motion of each scan into that frame. Each part of the surface comes from the first scan that saw
-// it
-// ([TL94]): a face of a later scan is dropped if its corners and centre lie closer than `reach` mm
-// to the earlier scans. Limits: overlapping measurements are not averaged. The seam stays open, and
-// surfaces overlap there by up to a face's width.
+// Returns one mesh, in mm, in the frame of the first scan, without colours. `motions` holds the
+// motion of each scan into that frame. Each part of the surface comes from the first scan that has
+// it ([TL94]): a face of a later scan is dropped if its corners and its centre are closer than
+// `reach` mm to the earlier scans. Limits: overlapping measurements are not averaged. The seams
+// stay open, and the surfaces overlap there by up to the width of a face.
 TriangleMesh fused_surface(std::span<const PoseScan> scans, std::span<const RigidMotion> motions,
                            double reach);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kSweeps = 10;
 
-// Returns the pairs of scan k with all other scans, in the frame of the first scan.
+// Returns pairs of points between scan k and each other scan, in the frame of the first scan.
 std::vector<Counterpart> pairs_of(std::span<const PreparedScan> scans,
                                   const std::vector<RigidMotion>& motions, std::size_t k,
                                   double reach) {

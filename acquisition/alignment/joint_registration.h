@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distributes the error of registration over all pairs of scans.
+// Registers several scans together, so that the error is distributed over all pairs of scans.
 #pragma once
 
 #include <span>
@@ -9,9 +9,10 @@
 
 namespace vitrine::acquisition {
 
-// Registers each scan but the first to all others at once ([CM92]), again and again. `motions` are
-// the present motions into the frame of the first scan; `reach` in mm. Returns the new motions, or
-// `motions` if they do not lower the rms distance over all pairs.
+// Repeatedly registers each scan except the first to all other scans at once ([CM92]). `motions`
+// are the present motions into the frame of the first scan. Only points closer than `reach` mm are
+// paired. Returns the new motions, or `motions` if the new ones do not lower the rms distance over
+// all pairs.
 std::vector<RigidMotion> register_jointly(std::span<const PreparedScan> scans,
                                           const std::vector<RigidMotion>& motions, double reach);
 

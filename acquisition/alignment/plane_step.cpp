@@ -9,7 +9,7 @@ namespace vitrine::acquisition {
 namespace {
 
 using Vector6 = std::array<double, 6>;
-// A pivot smaller than this multiple of the largest diagonal entry is only rounding error.
+// A pivot smaller than this multiple of the largest diagonal entry is regarded as a rounding error.
 constexpr double kDetermined = 1e-9;
 
 // Solves a positive semidefinite system by Gaussian elimination. Returns zero if the system is
@@ -37,7 +37,7 @@ Vector6 solve(std::array<Vector6, 6> a, Vector6 b) {
   return x;
 }
 
-// Rotates `p` about `turn` by the angle |turn| (Rodrigues).
+// Rotates `p` about the vector `turn` by the angle |turn|, in radians (Rodrigues' formula).
 Vec3 rotated(const Vec3& p, const Vec3& turn) {
   const double angle = length(turn);
   if (!(angle > 0)) return p;

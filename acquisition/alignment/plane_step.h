@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes one point-to-plane step of registration. Such a step moves quickly along surfaces that
-// are already in contact, where a point-to-point step is slow.
+// Computes one point-to-plane step of registration. If surfaces are already in contact, such a step
+// can slide them along each other quickly, whereas a point-to-point step is slow.
 #pragma once
 
 #include <span>
@@ -15,9 +15,9 @@ struct Counterpart {
   Vec3 normal;     // unit normal at the closest point
 };
 
-// Returns the small motion that brings the points closest to the tangent planes at their
-// counterparts, by least squares ([CM92]). Returns the identity if the pairs do not determine the
-// motion.
+// Returns the small motion that minimises the sum of squared distances of the points from the
+// tangent planes at their counterparts ([CM92]). Returns the identity if the pairs do not determine
+// the motion.
 RigidMotion towards_planes(std::span<const Counterpart> pairs);
 
 }  // namespace vitrine::acquisition

@@ -11,19 +11,21 @@ namespace {
 
 constexpr std::size_t kBins = 11;
 constexpr float kPercent = 100;
-constexpr std::size_t kBlock = 16;  // features compared at once
+constexpr std::size_t kBlock = 16;  // number of features compared at once
 
 std::size_t bin_of(double value, double low, double high) {
   const double part = (value - low) / (high - low) * kBins;
   return static_cast<std::size_t>(std::clamp(part, 0., kBins - 1.));
 }
 
-// Counts the three angles of a pair of points ([RBB09]) in the point's histograms.
+// Computes the three angles of a pair of points ([RBB09]) and counts them in the first point's
+// histograms.
 void count_pair(PointFeature& counts, Vec3 d, Vec3 normal, Vec3 other) {
   const double size = length(d);
   if (!(size > 0)) return;
   d = d * (1 / size);
-  // The frame stands at the point whose normal has the smaller angle to the line between the two.
+  // The pair's frame is at the point whose normal has the smaller angle to the line between the
+  // points.
   if (std::abs(dot(normal, d)) < std::abs(dot(other, d))) {
     std::swap(normal, other);
     d = d * -1;
@@ -49,10 +51,12 @@ void normalise(PointFeature& feature) {
   }
 }
 
-// Blocks of kBlock features, transposed, so that one instruction compares several.
+// kBlock features, stored component by component, so that one SIMD instruction compares several
+// features.
 using Block = std::array<std::array<float, kBlock>, kFeatureSize>;
 
-// Fills up the last block with features that are far from all others.
+// Divides the features into blocks. Fills the last block with dummy features that are far from all
+// others.
 std::vector<Block> blocks_of(std::span<const PointFeature> features) {
   std::vector<Block> blocks((features.size() + kBlock - 1) / kBlock);
   for (std::size_t i = 0; i < blocks.size() * kBlock; ++i) {
@@ -93,7 +97,7 @@ std::vector<PointFeature> point_features(const SurfacePoints& points, double rea
     });
     normalise(simple[i]);
   }
-  // A neighbour counts by the inverse of its squared distance.
+  // Adds the features of the neighbours, each weighted by the inverse of its squared distance.
   std::vector<PointFeature> features = simple;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     PointFeature sum{};

@@ -15,16 +15,16 @@ namespace vitrine::acquisition {
 inline constexpr std::size_t kFeatureSize = 33;
 using PointFeature = std::array<float, kFeatureSize>;  // three histograms of 11 bins, in percent
 
-// Returns the feature of each point, from the points within `reach` mm. A point without neighbours
-// gets zeros.
+// Returns the feature of each point, computed from the points within `reach` mm. All components are
+// 0 for a point without neighbours.
 std::vector<PointFeature> point_features(const SurfacePoints& points, double reach);
 
 struct FeatureMatch {
   std::uint32_t from = 0, to = 0;  // indices of the two points
 };
 
-// Returns the pairs of points of which each has the feature closest to that of the other, in
-// ascending order of `from`. O(n m).
+// Returns the pairs of points whose features are mutually closest, in ascending order of `from`.
+// Takes time proportional to the product of the two numbers of points.
 std::vector<FeatureMatch> mutual_matches(std::span<const PointFeature> from,
                                          std::span<const PointFeature> to);
 

@@ -11,11 +11,16 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kEdgeShare = .9;    // least ratio of two corresponding edges of a triple
-constexpr double kLeastEdge = 4;     // in multiples of `reach`: shorter edges give no stable motion
-constexpr double kCosNormals = .86;  // least cosine between the normals of matched points
+// smallest accepted ratio of two corresponding edges of a triple
+constexpr double kEdgeShare = .9;
+// Least length of a triple's edges, in multiples of `reach`. Shorter triples do not determine a
+// motion well.
+constexpr double kLeastEdge = 4;
+// smallest accepted cosine between the normals of matched points
+constexpr double kCosNormals = .86;
 constexpr double kAlikeDegrees = 8, kAlikeReaches = 3;
-constexpr std::size_t kKept = 2'000;  // best triples among which different motions are chosen
+// number of best triples from which different motions are chosen
+constexpr std::size_t kKept = 2'000;
 
 class Search {
  public:
@@ -29,7 +34,8 @@ class Search {
     auto operator<=>(const Scored&) const = default;
   };
 
-  // Returns triples with the number of matches that agree with each, the largest number first.
+  // Returns triples with their scores, the highest score first. The score is the number of matches
+  // that agree with the triple's motion.
   std::vector<Scored> triples() {
     std::vector<Scored> all;
     for (int trial = 0; trial < options_.trials; ++trial) {

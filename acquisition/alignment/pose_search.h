@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Searches for the motions that could lay one scan on another, from matches of which most are
+// Searches for motions that may align one scan with another, from feature matches most of which are
 // wrong.
 #pragma once
 
@@ -12,22 +12,25 @@
 namespace vitrine::acquisition {
 
 struct PoseSearch {
-  double reach = 0;             // mm: matched points closer than this agree with a motion
-  int trials = 1'000'000;       // triples of matches that are tried
-  std::size_t candidates = 32;  // most motions to return
+  // Distance in mm. A match agrees with a motion if its two points are closer than this after the
+  // motion.
+  double reach = 0;
+  int trials = 1'000'000;       // number of triples of matches to try
+  std::size_t candidates = 32;  // largest number of motions to return
   std::uint64_t seed = 1;
 };
 
-// Returns motions of `from` onto `to` that agree with many matches, most matches first. Each is the
-// motion of a random triple of matches ([FB81]) whose points have about the same distances from one
-// another on both sides. Any two motions differ by more than 8 degrees or three times `reach`.
-// Equal input and seed give an equal result.
+// Returns motions from `from` to `to` that agree with many matches, sorted by the number of
+// matches, the largest number first. Each motion comes from a random triple of matches ([FB81])
+// whose points have about the same distances from each other in both scans. Any two motions differ
+// by more than 8 degrees or by more than three times `reach`. Equal input and equal seeds give
+// equal results.
 std::vector<RigidMotion> candidate_poses(const SurfacePoints& from, const SurfacePoints& to,
                                          std::span<const FeatureMatch> matches,
                                          const PoseSearch& options);
 
-// Returns whether two motions differ by at most `degrees` and `mm`. The distance is that of the
-// moved point `middle`.
+// Returns whether two motions differ by at most `degrees` in rotation and by at most `mm` in the
+// position to which they move the point `middle`.
 bool are_alike(const RigidMotion& a, const RigidMotion& b, const Vec3& middle, double degrees,
                double mm);
 

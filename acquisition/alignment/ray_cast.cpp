@@ -8,19 +8,21 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Slab test ([KK86]). A component of `inverse` may be infinite.
+// Whether a ray meets the box, by the slab test ([KK86]). `inverse` is 1 / direction for each
+// component, which may be infinite.
 bool meets_box(const TriangleBvh::Node& box, const Vec3& origin, const Vec3& inverse) {
   const std::array from = {origin.x, origin.y, origin.z}, per = {inverse.x, inverse.y, inverse.z};
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
     const double a = (box.low[k] - from[k]) * per[k], b = (box.high[k] - from[k]) * per[k];
-    // A NaN, from a ray within a side of the box, changes nothing.
+    // std::max() and std::min() ignore a NaN here. A NaN occurs if the ray lies within a side of
+    // the box.
     enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
   }
   return enter <= leave;
 }
 
-// [MT97]
+// Uses the algorithm of [MT97].
 bool meets_triangle(const TrianglePoints& t, const Vec3& origin, const Vec3& direction) {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, p = cross(direction, ac);
   const double determinant = dot(ab, p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Casts rays at a triangle mesh.
+// Intersects rays with a triangle mesh.
 #pragma once
 
 #include "codec/mesh/triangle_bvh.h"

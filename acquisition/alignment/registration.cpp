@@ -10,8 +10,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kCosAgree = .5;     // least cosine between the normals of a pair
-constexpr std::size_t kFewest = 12;  // twice the number of unknowns
+constexpr double kCosAgree = .5;     // smallest cosine between the two normals of a pair of points
+constexpr std::size_t kFewest = 12;  // smallest number of pairs: twice the number of unknowns
 
 }  // namespace
 

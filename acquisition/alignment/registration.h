@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Iterated closest points ([BM92], point to plane [CM92]): moves the points of one scan onto the
-// surface of another.
+// Registration by iterated closest points ([BM92]; point to plane, [CM92]): moves the points of one
+// scan onto the surface of another scan.
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@
 
 namespace vitrine::acquisition {
 
-// Returns about `count` vertices of the mesh with their normals, evenly chosen.
+// Returns about `count` vertices of the mesh with their normals, taken at regular intervals.
 SurfacePoints some_vertices(const TriangleMesh& mesh, std::size_t count);
 
-// A surface to which scans are registered. Leaves out the rim, where the closest point is not the
-// corresponding one.
+// A surface to which scans are registered. The triangles at its rim are left out: a closest point
+// on the rim is usually not the corresponding point.
 class FixedSurface {
  public:
   explicit FixedSurface(const TriangleMesh& mesh);
 
   // Returns a pair for each moved point that is closer than `reach` mm to the surface and whose
-  // normal differs from that of the surface by less than 60 degrees.
+  // normal differs from the surface's normal by less than 60 degrees.
   std::vector<Counterpart> counterparts(const SurfacePoints& points, const RigidMotion& motion,
                                         double reach) const;
 
@@ -33,11 +33,13 @@ class FixedSurface {
   std::vector<bool> rim_;
 };
 
-// Returns the rms distance from the planes, in mm; 0 without pairs.
+// Returns the rms distance of the points from the tangent planes, in mm, or 0 if there are no
+// pairs.
 double rms_of(std::span<const Counterpart> pairs);
 
-// Returns the motion that lays the points on the surface, starting at `motion`. Takes `steps` steps
-// at each of the distances `reaches`, in mm. Stops early if fewer than 12 points overlap.
+// Returns the motion that moves the points onto the surface. Starts at `motion`, and takes `steps`
+// steps with each of the limits `reaches` on the distance of a pair, in mm. Stops early if there
+// are fewer than 12 pairs.
 RigidMotion register_points(const SurfacePoints& points, const FixedSurface& surface,
                             RigidMotion motion, std::span<const double> reaches, int steps);
 

@@ -6,7 +6,7 @@
 
 namespace vitrine::acquisition {
 
-// Rotates a direction, without the shift.
+// Rotates a direction by the rotation of `motion`, without its translation.
 Vec3 turned(const RigidMotion& motion, const Vec3& direction);
 
 RigidMotion inverse(const RigidMotion& motion);

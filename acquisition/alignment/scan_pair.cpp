@@ -11,13 +11,17 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kPoints = 6'000;         // points that get features, in the largest scan
-constexpr std::size_t kVertices = 3'000;  // vertices to register
-constexpr double kFeatureReach = 5;       // in multiples of the spacing
-// mm; a surface this close to a measured point does not count as crossing its sight line
+// approximate number of points with features in the largest scan
+constexpr double kPoints = 6'000;
+constexpr std::size_t kVertices = 3'000;  // number of vertices used for registration
+constexpr double kFeatureReach = 5;       // radius of features, in multiples of the spacing
+// Distance in mm. A surface closer than this to a measured point does not count as crossing the
+// point's sight line.
 constexpr double kMargin = 1.5;
-constexpr std::array kFirstReaches = {3., 2., 1.};     // in multiples of the spacing
-constexpr std::array kLastReaches = {4., 2., 1., 1.};  // in multiples of `reach`
+// limits for rough registration, in multiples of the spacing
+constexpr std::array kFirstReaches = {3., 2., 1.};
+// limits for final registration, in multiples of `reach`
+constexpr std::array kLastReaches = {4., 2., 1., 1.};
 constexpr int kSteps = 5;
 constexpr double kSameDegrees = 3;
 
@@ -28,10 +32,11 @@ std::vector<double> scaled(std::span<const double> reaches, double unit) {
   return all;
 }
 
-constexpr std::size_t kRoughPart = 4;  // rough registration uses every fourth vertex and line
+// rough registration uses every fourth vertex and every fourth sight line
+constexpr std::size_t kRoughPart = 4;
 // A pose is dropped if, after rough registration, surfaces cross a larger share of the sight lines
-// than this. The limit is generous, because a rough pose may be 1 mm off. Then more lines are
-// crossed than in the correct pose.
+// than this. The limit is generous: a rough pose may be off by 1 mm, and then surfaces cross more
+// sight lines than in the correct pose.
 constexpr double kRoughlyCrossed = .15;
 
 template <class T>
@@ -42,8 +47,8 @@ std::vector<T> thinned(const std::vector<T>& all) {
   return few;
 }
 
-// Registers the candidates roughly. Returns the poses that the sight lines do not rule out. Returns
-// only the first of several poses that are alike.
+// Registers the candidates roughly. Drops the poses that the sight lines contradict. If several
+// poses are alike, keeps only the first.
 std::vector<RigidMotion> rough_poses(const PreparedScan& from, const PreparedScan& to,
                                      std::span<const RigidMotion> candidates) {
   const SurfacePoints few = {thinned(from.vertices().at), thinned(from.vertices().normals)};

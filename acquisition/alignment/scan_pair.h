@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how one scan lies on another, without a start, and judges whether that may be wrong.
+// Finds the relative pose of two scans without an initial estimate, and judges whether it may be
+// wrong.
 #pragma once
 
 #include <span>
@@ -15,22 +16,23 @@ namespace vitrine::acquisition {
 
 // A scan of an object in one pose.
 struct PoseScan {
-  std::string name;              // for errors
-  TriangleMesh mesh;             // mm
-  std::vector<SightLine> lines;  // in the same frame
+  std::string name;              // name of the scan in error messages
+  TriangleMesh mesh;             // positions in mm
+  std::vector<SightLine> lines;  // sight lines in the frame of `mesh`
 };
 
 // A scan with the data that its registration needs.
 class PreparedScan {
  public:
-  // `spacing` is the distance of the points that get features, in mm.
+  // `spacing` is the approximate distance, in mm, between the points for which features are
+  // computed.
   PreparedScan(const PoseScan& scan, double spacing);
 
   const FixedSurface& surface() const { return surface_; }
   const SurfacePoints& points() const { return points_; }
   const std::vector<PointFeature>& features() const { return features_; }
   const SurfacePoints& vertices() const { return vertices_; }
-  // The lines on which the scan itself has no surface.
+  // The sight lines that the scan's own surface does not cross.
   const std::vector<SightLine>& lines() const { return lines_; }
   double spacing() const { return spacing_; }
 
@@ -42,29 +44,31 @@ class PreparedScan {
   std::vector<SightLine> lines_;
 };
 
-// Returns a spacing that gives the largest of the scans about 6,000 points.
+// Returns a spacing at which the largest of the scans has about 6,000 points with features.
 double spacing_for(std::span<const PoseScan> scans);
 
-// Returns the share of a scan's sight lines that the surface of another scan would have
-// interrupted, more than 1.5 mm in front of the measured point. `motion` moves the lines into the
-// frame of the surface. Right motions cross hardly any line.
+// Returns the share of a scan's sight lines that the surface of another scan crosses more than 1.5
+// mm in front of the measured point. `motion` moves the lines into the frame of the surface. In a
+// correct pose, hardly any line is crossed.
 double crossed_share(std::span<const SightLine> lines, const FixedSurface& surface,
                      const RigidMotion& motion);
 
 struct PairFit {
-  RigidMotion motion;  // of the first scan onto the second
-  // Share of the vertices of one scan that lie on the other: the larger of both shares.
+  RigidMotion motion;  // motion of the first scan onto the second scan
+  // Share of the vertices of one scan that lie on the surface of the other scan. This is the larger
+  // of the two shares.
   double overlap = 0;
-  double rms = 0;      // mm, of the distances there
-  double crossed = 0;  // larger of the two crossed shares
+  double rms = 0;      // rms distance of these vertices from the other surface, in mm
+  double crossed = 0;  // the larger value of crossed_share() for the two scans
 };
 
-// Judges a motion. `reach` in mm: surfaces closer than this count as the same surface.
+// Judges a motion. Two surfaces closer than `reach` mm count as the same surface.
 PairFit judge_pair(const PreparedScan& from, const PreparedScan& to, const RigidMotion& motion,
                    double reach);
 
-// Returns the candidates that rough registration and the sight lines leave, refined and judged,
-// without repetitions. Those with the largest overlap come first.
+// Returns the candidate poses that are left after rough registration and the check of sight lines,
+// refined and judged. Poses that are alike are returned only once. Sorted by overlap, the largest
+// first.
 std::vector<PairFit> pair_fits(const PreparedScan& from, const PreparedScan& to, double reach,
                                std::uint64_t seed);
 

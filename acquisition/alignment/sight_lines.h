@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways that the light took to and from the measured points of a scan. No surface can lie on
-// them.
+// Sight lines: the straight paths of the light from the laser to the measured points of a scan, and
+// from these points to the camera. No surface can cross these paths.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@
 namespace vitrine::acquisition {
 
 struct SightLine {
-  Vec3 point;    // a measured point, in mm, in the frame of the scan
+  Vec3 point;    // a measured point, in mm, in the scan's frame
   Vec3 towards;  // unit vector from the point to the camera or to the laser
 };
 
-// Returns two lines for each of about `count` measured points, evenly chosen from all profiles: to
-// the camera (see camera_place.h) and to the laser. A calibration knows the laser's plane, but not
-// the laser's place in it: the laser is taken to be as high and as far from the axis as the camera.
-// If the camera's place is unknown too, there is only the line to the laser, taken to be
-// horizontal.
+// Returns two lines for each of about `count` measured points, taken at regular intervals from all
+// profiles: one to the camera (see camera_place.h) and one to the laser. A calibration determines
+// the laser's plane, but not the laser's position in the plane. The laser is therefore assumed to
+// be as high and as far from the axis as the camera. If the camera's position is unknown too, there
+// is only the line to the laser, which is then assumed to be horizontal.
 std::vector<SightLine> sight_lines(std::span<const Profile> profiles,
                                    const Calibration& calibration, std::size_t count);
 

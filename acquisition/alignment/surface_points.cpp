@@ -17,7 +17,8 @@ Cube cube_of(const Vec3& p, double side) {
   return {index(p.x), index(p.y), index(p.z)};
 }
 
-// Adds the mean of the vertices [first, last) to `points`, unless their normals cancel each other.
+// Adds the mean of the vertices from `first` to `last` - 1 to `points`, unless the sum of their
+// normals is zero.
 void add_mean(SurfacePoints& points, const TriangleMesh& mesh, const std::vector<Vec3>& normals,
               std::span<const std::pair<Cube, std::uint32_t>> vertices) {
   Vec3 at, normal;
@@ -71,7 +72,7 @@ void PointGrid::near(const Vec3& p, const std::function<void(std::uint32_t)>& fo
   const Cell middle = cell_of(p);
   for (std::int64_t x = -1; x <= 1; ++x) {
     for (std::int64_t y = -1; y <= 1; ++y) {
-      // Cells that lie one above the other are consecutive in memory.
+      // Cells that are adjacent in z are consecutive in memory.
       const Cell low = {middle[0] + x, middle[1] + y, middle[2] - 1};
       const Cell high = {low[0], low[1], low[2] + 2};
       for (auto at = std::ranges::lower_bound(placed_, Placed{low, 0});

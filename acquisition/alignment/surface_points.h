@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Evenly spaced points of a surface with their normals, and the search for the points near a place.
+// Evenly spaced points of a surface with their normals, and the search for points near a position.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace vitrine::acquisition {
 
 struct SurfacePoints {
-  std::vector<Vec3> at;       // mm
+  std::vector<Vec3> at;       // positions in mm
   std::vector<Vec3> normals;  // unit vectors, towards the outside
   std::size_t size() const { return at.size(); }
 };
@@ -21,10 +21,10 @@ struct SurfacePoints {
 double area_of(const TriangleMesh& mesh);
 
 // Returns one point for each cube of a grid that contains vertices: the mean of these vertices.
-// `spacing` is the side of the cubes in mm and must be positive. O(n log n).
+// `spacing` is the side of the cubes in mm and must be positive. Takes O(n log n) time.
 SurfacePoints evenly_spaced(const TriangleMesh& mesh, double spacing);
 
-// A grid over points. `points` must outlive it.
+// A grid that finds points near a position. `points` must outlive the grid.
 class PointGrid {
  public:
   // `reach` is the radius of all searches, in mm.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refines the calibration by the Levenberg-Marquardt method, over all pictures at once. The
 // residuals of a picture depend only on the camera, the axis, and the placement and slip of that
-// picture. (The slip is the error of the table's angle.) So the normal equations are summed picture
-// by picture.
+// picture. (The slip is the error of the table's angle.) The normal equations are therefore summed
+// picture by picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,8 +30,8 @@ struct PictureUnknowns {
   double slip = 0;
 };
 constexpr int kCamera = 8, kPose = 6, kAxis = 4;
-// kFree: number of a picture's unknowns that Adjust::kPlacements adjusts, the camera and the
-// placement. kPart: number of all its unknowns.
+// Numbers of unknowns of one picture. kFree counts those that Adjust::kPlacements adjusts: camera
+// and placement. kPart counts all of them.
 constexpr int kFree = kCamera + kPose;
 constexpr int kPart = kFree + kAxis + 1;
 using Deltas = cv::Vec<double, kPart>;
@@ -190,7 +190,8 @@ class Problem {
   }
 
   std::span<const SeenTarget> seen_;
-  // Number of unknowns that are adjusted for each picture. The equations of the others stay zero.
+  // Number of unknowns that are adjusted for each picture. The equations of the remaining unknowns
+  // stay zero.
   int free_;
 };
 

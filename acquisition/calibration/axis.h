@@ -23,7 +23,7 @@ struct TurntableAxis {
 // laser plane, perpendicular to the axis. A negative rho stands for -rho at theta + 180 degrees, as
 // in [WLL] eq. 1. (rho, lateral, z) is a right-handed orthogonal frame.
 struct TablePoint {
-  double rho = 0, lateral = 0, z = 0;  // mm
+  double rho = 0, lateral = 0, z = 0;  // all in mm
 };
 
 TablePoint about(const TurntableAxis& axis, const PlanePoint& p);

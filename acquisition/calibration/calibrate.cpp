@@ -131,8 +131,8 @@ Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint>
   return judged;
 }
 
-// Predicts the left-out points like the function above, but from known coordinates in the laser
-// plane. Fits no light plane.
+// Fits a map to known coordinates in the laser plane, without the left-out poses. Returns the
+// residuals of the left-out poses. Fits no light plane, so dw is 0.
 Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const Correspondence> points,
                                                      const SensorRegion& region,
                                                      const std::vector<bool>& left_out,

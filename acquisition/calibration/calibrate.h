@@ -19,12 +19,12 @@ struct TargetPicture {
   int placement = 0;
   double angle = 0;  // the table's angle in degrees, as reported by the motor board
   TargetView view;
-  // Points of the laser's line, on the target and beside it. Empty if no line was found.
+  // Points of the laser's line, on the target and outside it. Empty if no line was found.
   std::vector<ImagePoint> stripe;
 };
 
 struct CalibrationInput {
-  std::string camera;  // serial number
+  std::string camera;  // serial number of the camera
   SensorRegion region;
   CharucoTarget target;
   std::vector<TargetPicture> pictures;

@@ -19,7 +19,7 @@ struct ResidualSummary {  // residuals in mm, over poses left out of the fit
 struct Calibration {
   int number = 0;       // 1, 2, 3, …; unique for each scanner
   std::string created;  // UTC, such as 2026-11-23T08:00:00Z
-  std::string camera;   // serial number
+  std::string camera;   // the camera's serial number
   SensorRegion region;
   PlaneMap map;
   TurntableAxis axis;

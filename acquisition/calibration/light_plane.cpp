@@ -11,10 +11,10 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;
-// Points that spread less than this across their longest extent lie nearly on a line and do not
-// determine a plane. Standard deviation in mm.
+// Smallest standard deviation, in mm, of the points across their longest extent. Points that spread
+// less nearly lie on a line and do not determine a plane.
 constexpr double kLeastSpread = 2;
-constexpr double kLeastInlier = 0.02;  // mm: a point this close always counts as an inlier
+constexpr double kLeastInlier = 0.02;  // in mm; a point closer than this always counts as an inlier
 
 struct PlaneEstimate {
   cv::Vec3d centre, normal;

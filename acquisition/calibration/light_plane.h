@@ -14,7 +14,7 @@ namespace vitrine::acquisition {
 
 struct LaserPoint {  // a point of the laser's line on the target
   ImagePoint in_image;
-  cv::Vec3d at;  // mm, in the camera's frame
+  cv::Vec3d at;  // position in the camera's frame, in mm
   int pose = 0;  // index of the picture that shows the point
 };
 

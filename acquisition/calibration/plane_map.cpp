@@ -14,7 +14,7 @@ namespace {
 // Largest accepted condition number. Above it, noise of 0.001 pixel would move the map by more than
 // a pixel.
 constexpr double kWorstCondition = 1e4;
-// Tolerance in pixels, needed because the hull is computed in single precision.
+// Tolerance in pixels. It is needed because the hull is computed in single precision.
 constexpr double kHullSlack = 1e-3;
 
 int terms_of(int degree) {

@@ -13,12 +13,12 @@
 namespace vitrine::acquisition {
 
 struct PlanePoint {
-  // mm, in the laser plane. y runs upwards, roughly along the table's axis.
+  // Coordinates in the laser plane, in mm. y runs upwards, roughly along the table's axis.
   double x = 0, y = 0;
 };
 
 struct Correspondence {
-  double u = 0, v = 0;  // pixels, relative to the region's top left pixel
+  double u = 0, v = 0;  // in pixels from the region's top left pixel
   PlanePoint at;
   int pose = 0;  // index of the picture that shows the point
 };

@@ -10,7 +10,7 @@
 namespace vitrine::acquisition {
 
 struct HeldOutPoint {
-  double u = 0, v = 0;  // pixels
+  double u = 0, v = 0;  // position of the point in the picture, in pixels
   // Residuals in mm, measured minus predicted: dx and dy in the laser plane, dw perpendicular to
   // it.
   double dx = 0, dy = 0, dw = 0;
@@ -27,15 +27,16 @@ struct DegreeResult {
 
 struct Coverage {
   double image_share = 0;  // share of the picture within the map's hull
-  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;  // mm: bounds of the hull in the laser plane
+  // Bounds of the hull in the laser plane, in mm.
+  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
 
 struct CalibrationReport {
   int pictures = 0;
-  std::size_t points = 0;  // stripe points on the target
+  std::size_t points = 0;  // number of stripe points on the target
   // Number of points on the target that were left out because they are far from the stripe.
   std::size_t strays = 0;
-  int unclear = 0;  // pictures left out because too many of their points were strays
+  int unclear = 0;  // number of pictures left out because too many of their points were strays
   // Rms reprojection error of the target's corners, in pixels. 0 if there are no pictures.
   double reprojection = 0;
   // Rms difference, in degrees, between the angles that the table reports and the angles computed

@@ -11,9 +11,9 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kMostArrows = 1500;
-// Length, in pixels, of the arrow for a residual at the 95th percentile.
+// Length, in pixels, of the arrow that stands for the 95th percentile of the residuals.
 constexpr double kArrow = 40;
-constexpr int kHueStep = 137;  // degrees of hue between consecutive poses
+constexpr int kHueStep = 137;  // hues of consecutive poses differ by this many degrees
 
 }  // namespace
 

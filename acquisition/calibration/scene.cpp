@@ -27,7 +27,8 @@ cv::Matx33d first_camera(std::span<const SeenTarget> seen, int width, int height
   }
   cv::Matx33d matrix = cv::initCameraMatrix2D(boards, images, {width, height});
   const double focal = matrix(0, 0);
-  if (!(focal > 0.3 * width && focal < 30 * width)) {  // implausible; all views may be frontal
+  // Replaces an implausible focal length, which may result if all views are frontal.
+  if (!(focal > 0.3 * width && focal < 30 * width)) {
     matrix(0, 0) = matrix(1, 1) = 2.5 * width;
   }
   return matrix;
@@ -103,7 +104,7 @@ double median(std::vector<double> values) {
 }
 
 // Estimates the axis's direction from the rotation of each pair. Uses the median, so that a few
-// wrong pairs do no harm.
+// wrong pairs have no effect.
 cv::Vec3d direction_of(std::span<const Turned> turns) {
   cv::Vec3d direction;
   for (int c = 0; c < 3; ++c) {

@@ -47,7 +47,7 @@ cv::Affine3d turn(const CameraFrameAxis& axis, double angle);
 
 enum class Adjust {
   kPlacements,  // adjusts camera and placements
-  kAll,         // also adjusts axis and slips
+  kAll,         // also adjusts the table's axis and the slips
 };
 
 // Adjusts the scene by least squares over the corners' positions in the image. Single outliers have

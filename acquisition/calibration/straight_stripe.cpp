@@ -14,7 +14,7 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr double kSigmas = 6;
-constexpr double kStripeWidth = 2.5;  // pixels
+constexpr double kStripeWidth = 2.5;  // width of the stripe, in pixels
 constexpr std::size_t kLeastOnLine = 10;
 
 struct ImageLine {
@@ -57,7 +57,7 @@ ImageLine first_line(std::span<const cv::Point2f> points) {
     const auto pick = [&] { return points[random() % points.size()]; };
     const cv::Point2f p = pick(), d = pick() - p;
     const auto length = static_cast<float>(cv::norm(d));
-    if (length < 1) continue;  // pixels: points this close give no reliable direction
+    if (length < 1) continue;  // points less than a pixel apart give no reliable direction
     const ImageLine line{p, {d.y / length, -d.x / length}};
     const double median = median_distance(points, line);
     if (median < least) least = median, best = line;
@@ -75,7 +75,7 @@ ImageLine refined(std::span<const cv::Point2f> points, const ImageLine& around) 
   std::vector<cv::Point2f> on_line;
   std::ranges::copy_if(points, std::back_inserter(on_line),
                        [&](const cv::Point2f& p) { return around.distance(p) <= near; });
-  cv::Vec4f line;  // direction, then a point
+  cv::Vec4f line;  // direction of the line, then a point on it
   cv::fitLine(on_line, line, cv::DIST_L2, 0, 0.001, 0.001);
   return {{line[2], line[3]}, {line[1], -line[0]}};
 }

@@ -22,10 +22,9 @@ double stripe_noise(std::span<const LaserPoint> stripe, const PlaneMap& map) {
   std::vector<double> deviations;
   for (const auto& [pose, points] : poses) {
     if (points.size() < kLeastDifferences) continue;
-    cv::Vec4f line;  // direction, then a point
+    cv::Vec4f line;  // direction of the line, then a point on it
     cv::fitLine(points, line, cv::DIST_L1, 0, 0.001, 0.001);
-    if (std::abs(line[1]) < 0.1f)
-      continue;  // in a nearly horizontal line, x carries no information
+    if (std::abs(line[1]) < 0.1f) continue;  // along a nearly horizontal line, x is not determined
     for (const cv::Point2f& p : points)
       deviations.push_back(std::abs(p.x - line[2] - (p.y - line[3]) * line[0] / line[1]));
   }

@@ -27,7 +27,7 @@ struct AravisUnref {
 template <class T>
 using AravisRef = std::unique_ptr<T, AravisUnref>;
 
-// Holds the error that one call of Aravis reports. Each call needs its own object.
+// Holds the error that one call of Aravis reports. Use a new object for each call.
 class AravisError {
  public:
   AravisError() = default;

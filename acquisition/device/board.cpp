@@ -23,8 +23,8 @@ Expected<std::unique_ptr<Board>> open_guarded(const BoardSelector& selector,
                                               const BoardOptions& options) {
   auto opened = open_controller(selector, options.response_timeout);
   if (!opened) return tl::unexpected(opened.error());
-  // Starts the guardian before anything is switched on. The guardian must find exactly this board,
-  // so the selector gets the board's serial number and port.
+  // Starts the guardian before anything is switched on. Sets the board's serial number and port in
+  // the selector, so that the guardian finds exactly this board.
   BoardSelector this_one = selector;
   this_one.serial = opened->port->serial();
   this_one.port = opened->port->socket();
@@ -61,7 +61,8 @@ Expected<OpenedController> open_controller(const BoardSelector& selector,
 Expected<std::unique_ptr<Board>> open_board(const BoardSelector& selector,
                                             const BoardOptions& options) try {
   return open_guarded(selector, options);
-} catch (const std::exception& error) {  // the system has no thread or no memory left
+  // For example, no thread can be started, or memory has run out.
+} catch (const std::exception& error) {
   return fail(ErrorCode::kIo, fmt::format("{:04x}:{:04x} cannot be opened: {}; free memory and "
                                           "try again",
                                           selector.vendor, selector.product, error.what()));

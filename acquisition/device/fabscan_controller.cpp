@@ -31,8 +31,8 @@ class FabScanController final : public Controller {
   bool halt() noexcept override { return talk_.port().restart_controller().has_value(); }
 
  private:
-  // Sends a command and returns the last line of the answer before the prompt. Empty if the answer
-  // has no line.
+  // Sends a command and returns the last line of the answer before the prompt. Returns an empty
+  // text if the answer has no lines.
   Expected<std::string> command(const std::string& line, milliseconds timeout);
   Expected<void> obey(const std::string& line);
   Expected<void> step(long steps);
@@ -95,8 +95,8 @@ Expected<std::optional<double>> FabScanController::position() {
   return static_cast<double>(steps_) / steps_per_degree_;
 }
 
-// Stores the nearest motor step, because a motion to that angle would end there. So a resumed scan
-// gives the same result as an uninterrupted scan.
+// Stores the nearest motor step, because a motion to that angle would end there. A resumed scan
+// therefore gives the same result as an uninterrupted one.
 Expected<void> FabScanController::set_position(double degrees) {
   steps_ = step_at(degrees);
   is_known_ = true;

@@ -28,8 +28,8 @@ class HorusController final : public Controller {
   bool halt() noexcept override;
 
  private:
-  // Waits for a reply of that kind and skips all other replies before it. Returns nullopt after
-  // `timeout`.
+  // Waits for a reply of the given kind and skips all other replies before it. Returns nullopt
+  // after `timeout`.
   Expected<std::optional<horus::Reply>> await(ReplyKind kind, milliseconds timeout);
   Expected<std::optional<horus::Reply>> ask_modes();
   Expected<std::string> ask_version();
@@ -41,7 +41,7 @@ class HorusController final : public Controller {
   Unexpected refused(std::string_view line, const horus::Reply& reply) const;
 
   Conversation talk_;
-  std::string name_, heard_;  // heard_: the last received line that no Horus board sends
+  std::string name_, heard_;  // heard_: the last received line that no Horus board would send
   milliseconds timeout_;
   bool is_counted_ = false;  // whether the board's counter is valid
   bool is_motor_on_ = false;

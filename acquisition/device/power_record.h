@@ -9,9 +9,9 @@
 
 namespace vitrine::acquisition {
 
-// kUnknown: the board was never opened, or it did not confirm that it is off.
+// kUnknown means that the board was never opened, or that it did not confirm that the laser is off.
 enum class LaserState : std::uint8_t { kUnknown, kOff, kOn };
-// kHolding: the motor has power and holds the table still.
+// kHolding means that the motor has power and holds the table still.
 enum class MotorState : std::uint8_t { kUnknown, kOff, kHolding, kTurning };
 
 struct BoardPower {
@@ -24,7 +24,7 @@ struct BoardPower {
 };
 
 // Thread-safe. The board writes "on" before it sends a command and "off" after the board's
-// confirmation, so the record never calls a laser off that may be lit.
+// confirmation, so the record never states that a laser is off while it may be lit.
 class PowerRecord {
  public:
   void laser(LaserState state) {

@@ -61,7 +61,7 @@ class SafeBoard final : public Board {
 
   std::mutex mutex_;  // guards the members below, and all calls of controller_ except halt()
   std::condition_variable closing_soon_;
-  bool is_off_ = false;  // the board confirmed the last switch-off
+  bool is_off_ = false;  // whether the board has confirmed the last switch-off
   std::optional<Error> failure_;
   Clock::time_point last_call_ = Clock::now();
   bool is_resting_ = true, is_closing_ = false;
@@ -95,8 +95,8 @@ void SafeBoard::switch_off() {
   controller_->halt();
 }
 
-// Counts the board as off if the command could be sent, because the boards' firmware obeys it
-// without a confirmation.
+// Counts the board as off if the command could be sent, because the firmware obeys this command
+// even if it does not confirm it.
 void SafeBoard::halt() noexcept {
   if (controller_->halt()) return power_->both_off();
   power_->unknown();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a Board from a controller. This Board switches laser and motor off no matter how its use
-// ends.
+// Makes a Board from a controller. This Board switches laser and motor off however its use ends.
 #pragma once
 
 #include <memory>

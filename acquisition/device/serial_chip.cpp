@@ -31,11 +31,11 @@ ControlRequest ftdi_baud(int baud) {
 }
 
 std::vector<ControlRequest> ftdi_set_up(int baud) {
-  return {vendor_request(0, 0, 0),   // reset
+  return {vendor_request(0, 0, 0),   // resets the chip
           ftdi_baud(baud),           //
-          vendor_request(4, 8, 0),   // 8 data bits, no parity, 1 stop bit
-          vendor_request(2, 0, 0),   // no flow control
-          vendor_request(9, 1, 0)};  // latency: 1 ms
+          vendor_request(4, 8, 0),   // sets 8 data bits, no parity, 1 stop bit
+          vendor_request(2, 0, 0),   // disables flow control
+          vendor_request(9, 1, 0)};  // sets the latency to 1 ms
 }
 
 // Returns the divisor of CH340 and CH341 for a baud rate. The divisor's high byte is the start of a
@@ -101,7 +101,7 @@ ControlRequest modem_lines(SerialChip chip, bool up, std::uint8_t interface) {
 
 void append_payload(SerialChip chip, std::span<const std::uint8_t> transfer,
                     std::size_t packet_size, std::vector<std::uint8_t>& out) {
-  // Each packet of an FTDI chip starts with two bytes: the states of modem and line.
+  // Each packet of an FTDI chip starts with two bytes: the states of the modem and of the line.
   constexpr std::size_t kFtdiStatus = 2;
   const std::size_t skip = chip == SerialChip::kFtdi ? kFtdiStatus : 0;
   for (std::size_t at = 0; at < transfer.size(); at += packet_size) {

@@ -16,13 +16,14 @@ class SerialPort {
 
   virtual ~SerialPort() = default;
 
-  // name() is for messages, such as "USB board 2341:0043". serial() is the device's serial number,
-  // socket() its USB port, such as "1-2.4". Both are empty if the device has none.
+  // name() is the name in messages, such as "USB board 2341:0043". serial() is the device's serial
+  // number, and socket() is its USB port, such as "1-2.4". Each of these two is empty if the device
+  // does not have it.
   virtual const std::string& name() const = 0;
   virtual const std::string& serial() const = 0;
   virtual const std::string& socket() const = 0;
 
-  // Callable from any thread.
+  // May be called from any thread.
   virtual Expected<void> write(std::string_view bytes) = 0;
   // Returns the bytes received since the last read(). If there are none, waits for a byte until
   // `deadline`, then returns an empty string. Only one thread at a time may call read().

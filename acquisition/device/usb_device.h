@@ -38,9 +38,9 @@ struct UsbDevice {
   std::string port;    // same format as in BoardSelector
 };
 
-// choose() returns the one candidate that matches `selector`. open_usb_device() makes the
-// candidates from the connected devices and calls choose(). A device that cannot be opened is an
-// error among the candidates, because its serial number cannot be read. If no other device matches,
+// choose() returns the only candidate that matches `selector`. open_usb_device() makes the
+// candidates from the connected devices and calls choose(). A device that cannot be opened is
+// represented by its error, because its serial number cannot be read. If no other device matches,
 // choose() returns that error.
 Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
                            const BoardSelector& selector);

@@ -175,7 +175,7 @@ void UsbSerial::arrived(Incoming& incoming) {
   const std::lock_guard lock(mutex_);
   const auto length = static_cast<std::size_t>(std::max(0, transfer.actual_length));
   append_payload(line_.chip, std::span(incoming.bytes).first(length), line_.packet_size, unread_);
-  if (unread_.size() > kMostUnread) unread_.clear();  // no answer is that long
+  if (unread_.size() > kMostUnread) unread_.clear();  // no valid answer is that long
   const bool usable = transfer.status == LIBUSB_TRANSFER_COMPLETED;
   incoming.is_pending =
       usable && !is_closing_ && libusb_submit_transfer(incoming.transfer.get()) == LIBUSB_SUCCESS;

@@ -17,7 +17,7 @@ class Outgoing {
   Outgoing(const Outgoing&) = delete;
   Outgoing& operator=(const Outgoing&) = delete;
 
-  libusb_transfer* transfer() { return transfer_; }  // null if out of memory
+  libusb_transfer* transfer() { return transfer_; }  // null if memory has run out
   int carry_out();
 
   static void LIBUSB_CALL on_complete(libusb_transfer* transfer);

@@ -10,8 +10,8 @@
 
 namespace vitrine::acquisition {
 
-// A monochrome picture with 8 bits for each pixel, row by row without gaps. So pixels.size() is the
-// product of width and height.
+// A monochrome picture with 8 bits per pixel, row by row without gaps. pixels.size() is therefore
+// width * height.
 struct Frame {
   int width = 0, height = 0;  // size of the region that was read, in pixels
   std::vector<std::uint8_t> pixels;
@@ -24,7 +24,7 @@ struct Frame {
 
 // A position in a picture, to sub-pixel precision.
 struct ImagePoint {
-  double u = 0, v = 0;  // pixels
+  double u = 0, v = 0;  // in pixels from the picture's top left corner
 };
 
 // The part of the sensor that is read. A calibration is valid for one region of one camera.

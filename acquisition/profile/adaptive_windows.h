@@ -19,11 +19,11 @@ struct WindowLimits {
   // Windows are merged until at most this many are left.
   std::size_t windows = 1;
   std::size_t longest = 1;  // largest number of points in a window
-  double noise = 0;         // mm: standard deviation of the points
+  double noise = 0;         // standard deviation of the points, in mm
 };
 
-// Returns the windows in ascending order, without gaps or overlaps. A point
-// flagged kApart, where the surface does not continue from the point before, begins a new window.
+// Returns the windows in ascending order, without gaps or overlaps. A point that is flagged kApart
+// begins a new window, because the surface does not continue from the point before it.
 std::vector<Window> adaptive_windows(std::span<const ProfilePoint> points,
                                      const WindowLimits& limits);
 

@@ -18,7 +18,7 @@ struct PolylineVertex {
 
 // Moves each corner perpendicular to the polyline, in the plane of rho and z, to minimise the sum
 // of squared distances to the points. Without this correction, a polyline through means lies on the
-// inner side of each bend. O(points).
+// inner side of each bend. Takes O(points) time.
 void fit_polyline(std::span<const ProfilePoint> points, std::span<PolylineVertex> corners);
 
 }  // namespace vitrine::acquisition

@@ -18,9 +18,9 @@ constexpr double kMostSaturated = .8, kMostDoubled = .5;
 // view, covers only a hundredth of a picture.
 constexpr double kMostFull = .05;
 constexpr int kFullLevel = 254;     // grey level at which a stripe counts as saturated
-constexpr double kLeastHeight = 1;  // mm: least height of an object
+constexpr double kLeastHeight = 1;  // least height of an object, in mm
 constexpr double kStrays = .02;     // share of the points ignored at the top, and at the bottom
-constexpr double kMostShift = 10;   // pixels: largest shift of a line between adjacent rows
+constexpr double kMostShift = 10;   // largest shift of a line between adjacent rows, in pixels
 
 // Returns whether two points in adjacent rows belong to a line. Noise often exceeds the threshold
 // in one row, but rarely at nearly the same place in the next row too.
@@ -28,8 +28,8 @@ bool is_line(const StripePoint& a, const StripePoint& b) {
   return b.row == a.row + 1 && std::abs(b.u - a.u) <= kMostShift;
 }
 
-// Returns the first point of each row. Flags the point kDouble if a second point follows in the
-// row, however weak the second is.
+// Returns the first point of each row. Flags the point kDouble if the row has a second point, even
+// a weak one.
 std::vector<StripePoint> one_a_row(std::span<const StripePoint> stripe) {
   std::vector<StripePoint> first;
   for (const StripePoint& point : stripe) {
@@ -41,7 +41,7 @@ std::vector<StripePoint> one_a_row(std::span<const StripePoint> stripe) {
   return first;
 }
 
-// Returns the range of the heights, in mm, after leaving out the strays at either end.
+// Returns the range of the heights, in mm, without the share kStrays at each end.
 double extent(std::vector<double>& heights) {
   std::ranges::sort(heights);
   const auto strays = static_cast<std::size_t>(kStrays * static_cast<double>(heights.size()));

@@ -43,10 +43,11 @@ RowShares shares(const StripeCount& scan, int height);
 // Returns whether the scan shows a stripe that can be measured.
 bool shows_stripe(const StripeCount& scan);
 
-// Judges the counts of a scan. Fails with kBadInput, and one of these messages. "over-exposed": too
-// many pixels are at the end of the camera's range. "no stripe": hardly any frame shows a stripe.
-// "all saturated": most of the stripe is at the end of the range. "two stripes": most rows show two
-// stripes.
+// Judges the counts of a scan. Fails with kBadInput and one of these messages:
+//   "over-exposed": too many pixels are at the end of the camera's range.
+//   "no stripe": hardly any frame shows a stripe.
+//   "all saturated": most of the stripe is at the end of the range.
+//   "two stripes": most rows show two stripes.
 Expected<void> judge(const StripeCount& scan);
 
 // Judges the profiles of a scan. Fails with kBadInput ("empty turntable") if all points except a

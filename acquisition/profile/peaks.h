@@ -11,7 +11,7 @@
 namespace vitrine::acquisition {
 
 struct Peak {
-  int u = 0;         // pixels
+  int u = 0;         // column, in pixels
   int strength = 0;  // grey levels above the background, smoothed across the stripe
 };
 

@@ -6,8 +6,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Wraps an angle to [0, 360). A negative rounding error becomes 0, because adding 360 to it would
-// give 360.
+// Wraps an angle to [0, 360). Replaces a tiny negative angle by 0, because adding 360 to it would
+// round to 360.
 double whole_turn(double degrees) {
   const double rest = std::fmod(degrees, 360), turned = rest < 0 ? rest + 360 : rest;
   return turned < 360 ? turned : 0;

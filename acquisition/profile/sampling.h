@@ -25,8 +25,8 @@ struct SamplingOptions {
 // For the n values of rho in a block, eq. 3 and 4 define:
 //   mean = sum rho_i / n,   s² = sum (rho_i - mean)² / (n - 1).
 // If every |rho_i - mean| <= 3 s, the block becomes one point (mean rho, theta, mean z). Otherwise
-// all its points stay. |rho_i - mean| / s is at most (n - 1) / sqrt(n). So up to L = 10 no value
-// exceeds 3 s, and kPaper is plain averaging.
+// all its points stay. |rho_i - mean| / s is at most (n - 1) / sqrt(n). For L <= 10, therefore, no
+// value exceeds 3 s, and kPaper is plain averaging.
 //
 // kAdaptive concentrates points on detail. Over all profiles it keeps at most as many points as
 // kEquidistant plus the ends of the profiles' parts. Each kept point represents a window of up to 2
@@ -36,11 +36,11 @@ struct SamplingOptions {
 // start as the means of the windows. At the end of a part (PointFlag kApart), a point lies instead
 // on its window's line at the outermost position, so that parts do not shrink. Finally the points
 // move so that the polyline through them fits all original points best (fit_polyline.h). Profiles
-// with more than 2,000,000 points in all are processed in blocks. O(n log n).
+// with more than 2,000,000 points in total are processed in blocks. Takes O(n log n) time.
 //
 // A kept point gets the row in the middle of its window, so rows stay ascending. The point is
-// flagged kFilled if all points of its window are. It has every other flag that any point of its
-// window has.
+// flagged kFilled if all points of its window are flagged kFilled. It gets every other flag that
+// any point of its window has.
 void sample(std::span<Profile> profiles, const SamplingOptions& options);
 
 }  // namespace vitrine::acquisition

@@ -8,8 +8,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr int kShortestLine = 5;  // rows: shorter lines do not count
-constexpr int kMostSlant = 10;    // pixels: largest shift of a line between adjacent rows
+constexpr int kShortestLine = 5;  // in rows; shorter lines do not count
+constexpr int kMostSlant = 10;    // largest shift of a line between adjacent rows, in pixels
 // Largest strength in the dark gap between two surfaces, as a share of the weaker peak's strength.
 constexpr double kMostLit = .1;
 

@@ -11,7 +11,7 @@ namespace vitrine::acquisition {
 // Smooths the stripe along the rows. Each point moves in u onto a line fitted to neighbouring rows,
 // up to `reach` rows to either side. The line covers as many rows as possible, as long as they
 // scatter no more than the noise does. The noise is estimated from the stripe's third differences,
-// on which edges have little effect. O(rows * reach).
+// on which edges have little effect. Takes O(rows * reach) time.
 void steady(std::vector<StripePoint>& stripe, int reach);
 
 }  // namespace vitrine::acquisition

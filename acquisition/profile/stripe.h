@@ -33,7 +33,7 @@ struct StripeOptions {
 
 struct StripePoint {
   int row = 0;             // image row, in pixels; ascending, and at most two points share a row
-  double u = 0;            // pixels
+  double u = 0;            // column, in pixels
   double strength = 0;     // grey levels above the background, after smoothing
   std::uint8_t flags = 0;  // combination of PointFlag values
 };

@@ -12,8 +12,8 @@ namespace vitrine::acquisition::rig {
 // The faults. `step` is RigFault::step: the number of the motion after which the fault occurs.
 enum class FaultKind {
   kLostPackets,    // after motion `step`, one frame in twenty lacks packets
-  kCameraUnplug,   // after motion `step`, the camera is absent for kUnplugged
-  kUsbUnplug,      // after motion `step`, the board is absent for kUnplugged
+  kCameraUnplug,   // after motion `step`, the camera is absent for the time kUnplugged
+  kUsbUnplug,      // after motion `step`, the board is absent for the time kUnplugged
   kMotorStall,     // after motion `step`, the table does not turn until the board restarts
   kMissedTrigger,  // the first frame after motion `step` is not sent
   kDrift,          // after motion `step`, the laser shifts by kCreepMm with each motion
@@ -33,12 +33,13 @@ inline constexpr double kCreepMm = 0.002;
 // error lists the names.
 Expected<RigFault> parse_fault(std::string_view text);
 
-// due() returns whether a fault of that kind occurs right after motion number `turns`. lasting()
-// returns whether such a fault has occurred by then.
+// due() returns whether a fault of the given kind occurs right after motion number `turns`.
+// lasting() returns whether such a fault has occurred by that time.
 bool due(const std::vector<RigFault>& faults, FaultKind kind, int turns);
 bool lasting(const std::vector<RigFault>& faults, FaultKind kind, int turns);
 
-// Returns the laser's shift by kDrift, in mm, after `turns` motions of the table.
+// Returns how far the fault kDrift has shifted the laser, in mm, after `turns` motions of the
+// table.
 double crept(const std::vector<RigFault>& faults, int turns);
 
 }  // namespace vitrine::acquisition::rig

@@ -45,7 +45,7 @@ class GigeCamera::Plugged {
     write(ARV_FAKE_CAMERA_REGISTER_SENSOR_HEIGHT, kSensorHeight);
     write(ARV_FAKE_CAMERA_REGISTER_WIDTH, kSensorWidth);
     write(ARV_FAKE_CAMERA_REGISTER_HEIGHT, kSensorHeight);
-    // Hz: how often the camera polls for a trigger, not the rate of the triggers.
+    // In Hz. This is how often the camera polls for a trigger, not the rate of the triggers.
     arv_fake_camera_set_trigger_frequency(fake_, 500);
     arv_fake_camera_set_fill_pattern(fake_, fill, this);
   }

@@ -39,8 +39,7 @@ class GigeCamera {
   GigeCamera& operator=(const GigeCamera&) = delete;
 
   // Simulate plugging and unplugging the camera's cable. While unplugged, the camera is silent and
-  // forgets its settings. Both functions return when the state is reached, or at once if it is
-  // reached already.
+  // forgets its settings. Both functions return when the camera is in the requested state.
   Expected<void> plug_in();
   void unplug();
 

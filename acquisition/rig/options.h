@@ -22,7 +22,7 @@ struct RigOptions {
   Realism realism;
   Finish finish;
   int steps = 720;
-  // Speed of the table. With 0, motions complete at once.
+  // Speed of the table. If 0, motions complete at once.
   double degrees_per_second = 0;
   std::vector<RigFault> faults;
   std::string address = "127.0.0.1", dialect = "horus", name = "rig";

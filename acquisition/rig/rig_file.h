@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a rig.json for this simulated scanner. `vitrine` reads this file like that of any other
-// scanner.
+// Writes a rig.json for the simulated scanner. It has the same form as the rig.json of a real
+// scanner, which `vitrine` reads.
 #pragma once
 
 #include <filesystem>

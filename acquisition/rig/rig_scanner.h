@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated scanner: stage, camera, board and faults.
+// The simulated scanner: table, laser, camera and board, with the faults that the options request.
 #pragma once
 
 #include <chrono>
@@ -23,14 +23,14 @@
 namespace vitrine::acquisition::rig {
 
 struct RigScannerOptions {
-  // The object on the table, which must outlive the scanner. Null: an empty scene that reflects no
-  // light.
+  // The object on the table, which must outlive the scanner. If null, the scene is empty and
+  // reflects no light.
   const Subject* object = nullptr;
   Realism realism;
   std::vector<RigFault> faults;
   std::string camera_address = "127.0.0.1";
   bool is_fabscan = false;  // whether the board speaks FabScan instead of Horus
-  // Speed of the table. With 0, motions complete at once.
+  // Speed of the table. If 0, motions complete at once.
   double degrees_per_second = 0;
   // File that keeps the table's angle. Empty: the table starts at 0 degrees.
   std::filesystem::path table;
@@ -61,7 +61,7 @@ class RigScanner {
 
   const RigScannerOptions options_;
   const double degrees_;  // the table's angle when the board's position is 0
-  // Only the camera's thread uses this and the next two members.
+  // Only the camera's thread uses this member and the next two.
   Renderer renderer_;
   std::uint64_t frames_ = 0;
   int missed_at_ = -1;  // number of completed motions at the last missed trigger

@@ -14,11 +14,11 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// mm: a ray starts this far from its vertex, so that the ray does not hit the vertex's own faces.
+// In mm. A ray starts this far from its vertex, so that it does not hit the vertex's own faces.
 constexpr double kClearance = 0.02;
 
-// Returns for each vertex the mean of its faces' normals, weighted by area. Zero for a vertex
-// without a face.
+// Returns for each vertex the mean of its faces' normals, weighted by area. The mean is zero for a
+// vertex without faces.
 std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size());
   for (const Triangle& face : mesh.faces) {

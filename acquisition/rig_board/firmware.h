@@ -13,7 +13,7 @@
 namespace vitrine::acquisition::rig {
 
 struct FirmwareSettings {
-  double degrees_per_second = 0;  // 0: motions complete at once
+  double degrees_per_second = 0;  // speed of the table; if 0, motions complete at once
   // Motor steps in one revolution. The table always rests at a whole step.
   int steps_per_turn = 28800;
 };
@@ -27,8 +27,8 @@ class Firmware {
   void receive(std::string_view bytes, double now);
   // Completes the motion if its end time has passed.
   void advance(double now);
-  // Returns the time at which the current motion ends. Infinity if there is no motion or the motor
-  // is stalled.
+  // Returns the time at which the current motion ends, or infinity if there is no motion or the
+  // motor is stalled.
   double next() const;
   // Returns and clears the board's output.
   std::string take_output();
@@ -54,7 +54,7 @@ class Firmware {
 
   void say(std::string_view text) { output_ += text; }
   double degrees_per_step() const { return 360.0 / settings_.steps_per_turn; }
-  // Starts a motion.
+  // Starts a motion by `steps` motor steps, which may be negative.
   void move_by(long steps, double now);
   // Stops the motion and returns the number of steps made so far.
   long stop_moving(double now);

@@ -12,7 +12,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr std::size_t kLongestLine = 70;  // bytes, as in Grbl
+constexpr std::size_t kLongestLine = 70;  // length of a line in bytes, as in Grbl
 
 using Words = std::map<char, double>;
 

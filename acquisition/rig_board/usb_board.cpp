@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 // Seconds by which the answer "none yet" is delayed. libusb asks for finished transfers as long as
 // the device file is writable. The simulated file is a socket and therefore always writable, so
 // without the delay libusb would poll in a tight loop.
-constexpr double kHold = 0.0015;  // seconds
+constexpr double kHold = 0.0015;
 // Interval in seconds at which FTDI chips send their status even if they have no data.
 constexpr double kFtdiIdle = 0.016;
 constexpr std::size_t kMostUnread = 4096;
@@ -66,10 +66,10 @@ struct UsbTransfer {
   }
 };
 
-// A device file that a client has open.
+// The state of a client: one open file descriptor of the device file.
 struct Client {
   double last_call = 0;
-  // Holding this reference keeps the client's address from being reused.
+  // Keeps the client's address from being reused while this reference exists.
   UmockdevRef<UMockdevIoctlClient> handle;
   bool is_gone = false;  // the device that this client opened has been unplugged
   std::set<unsigned> claimed;
@@ -136,7 +136,7 @@ class UsbBoard::Impl {
   bool is_dtr_set_ = false, is_closing_ = false;
   std::string unread_;
   double last_in_ = 0;
-  // The table's angle at power-on, and its angle now.
+  // The table's angle in degrees at power-on, and its angle now.
   double base_ = 0, table_ = 0;
   // The angle at which the table last rested, and the target of the motion.
   double stood_ = 0, goal_ = 0;

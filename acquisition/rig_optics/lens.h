@@ -10,7 +10,7 @@
 namespace vitrine::acquisition::rig {
 
 struct Lens {
-  double focal = 0;           // pixels
+  double focal = 0;           // focal length, in pixels
   ImagePoint centre;          // the point at which the optical axis meets the sensor
   double k1 = 0, k2 = 0;      // radial distortion
   double p1 = 0, p2 = 0;      // tangential distortion

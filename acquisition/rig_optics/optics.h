@@ -10,7 +10,7 @@
 
 namespace vitrine::acquisition::rig {
 
-inline constexpr int kSensorWidth = 1300, kSensorHeight = 1030;  // pixels
+inline constexpr int kSensorWidth = 1300, kSensorHeight = 1030;  // size of the sensor, in pixels
 
 // A sheet of laser light: all points p with dot(normal, p) == offset, lit from `source`, which lies
 // in the sheet. The sheet passes the table's axis at a small distance, which a calibration has to
@@ -19,9 +19,9 @@ struct LaserSheet {
   // A unit vector. Except for the second laser, its x is 0, so the sheet meets the table along the
   // x axis.
   Vec3 normal{0, 1, 0};
-  double offset = 0;  // mm
+  double offset = 0;  // distance of the plane from the origin along `normal`, in mm
   Vec3 source;
-  double sigma = 0.13;  // mm: standard deviation of the sheet's cross section
+  double sigma = 0.13;  // standard deviation of the sheet's cross section, in mm
 };
 
 struct Optics {

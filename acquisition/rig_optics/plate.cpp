@@ -7,7 +7,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr double kRadius = 60;  // mm: larger than any object
+constexpr double kRadius = 60;  // in mm; larger than any object
 constexpr std::uint32_t kCorners = 90;
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr double kMotorError = 0.05;  // degrees: standard deviation of the motor's error
+constexpr double kMotorError = 0.05;  // standard deviation of the motor's error, in degrees
 constexpr std::size_t kPixels = static_cast<std::size_t>(kSensorWidth) * kSensorHeight;
 
 // Returns the angle, reduced to one revolution, in millionths of a degree.

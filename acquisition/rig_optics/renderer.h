@@ -39,11 +39,11 @@ struct Shot {
 double reached(const Realism& realism, double degrees);
 
 // Renders the camera's pictures. Only one thread may use a renderer. Noise depends only on seed,
-// target, laser and the angle within a revolution (in millionths of a degree). So the same setting
-// always gives the same picture.
+// target, laser and the angle within a revolution (in millionths of a degree). The same setting
+// therefore always gives the same picture.
 class Renderer {
  public:
-  // `object` must outlive the renderer. Null: an empty scene that reflects no light.
+  // `object` must outlive the renderer. If null, the scene is empty and reflects no light.
   Renderer(const Optics& optics, const Subject* object, const Realism& realism);
 
   Frame take(const Shot& shot);

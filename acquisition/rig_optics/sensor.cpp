@@ -16,7 +16,7 @@ std::uint8_t grey(float level) {
   return static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F));
 }
 
-// Converts light to a grey level. This code runs for each pixel of each frame, so speed matters.
+// Converts light to a grey level. Called for each pixel of each frame, so it must be fast.
 struct Amplifier {
   float gain, shot;
 

@@ -26,8 +26,8 @@ class Solid final : public Subject {
   bool shadowed(const RayHit& point, const Vec3& source) const override;
   void near_plane(const Vec3& normal, double offset, double half,
                   const std::function<void(ConvexPolygon)>& visit) const override;
-  // Ambient light is faint and the same in both frames of a pair. So an eighth of the resolution is
-  // enough.
+  // An eighth of the resolution is enough, because ambient light is faint and the same in both
+  // frames of a pair.
   int ambient_step() const override { return 8; }
   double ambient_light() const override { return 14; }
 

@@ -13,8 +13,9 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr double kDotsPerMm = 12, kPaperMargin = 4;  // dots per mm of the print; margin in mm
-constexpr double kInk = 0.12, kPaper = 0.7;          // albedo of ink and paper
+// dots per mm of the print; margin of the sheet in mm
+constexpr double kDotsPerMm = 12, kPaperMargin = 4;
+constexpr double kInk = 0.12, kPaper = 0.7;  // albedo of ink and paper
 
 cv::Mat print(const TargetSpec& spec) {
   const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_100);
@@ -27,7 +28,7 @@ cv::Mat print(const TargetSpec& spec) {
               image);
   const int margin = static_cast<int>(kPaperMargin * kDotsPerMm);
   cv::copyMakeBorder(image, image, margin, margin, margin, margin, cv::BORDER_CONSTANT, 255);
-  // Simulates bleeding ink, and the averaging over the area of a pixel.
+  // Simulates bleeding ink and the averaging of light over the area of a pixel.
   cv::GaussianBlur(image, image, {}, 0.45);
   return image;
 }

@@ -35,7 +35,7 @@ class PrintedTarget final : public Subject {
   double brightness(double x, double y) const;
 
   int columns_ = 0, rows_ = 0;      // size of the picture of the printed board, in pixels
-  double half_x_ = 0, half_y_ = 0;  // mm: half of the sheet's size
+  double half_x_ = 0, half_y_ = 0;  // half of the sheet's size, in mm
   std::vector<float> albedo_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The emergency stop of a scanner. A press, from any thread, stops the board that is open now and
+// The emergency stop of a scanner. A press may come from any thread. It stops the open board and
 // every board opened later, until the press is released.
 #pragma once
 
@@ -32,8 +32,8 @@ class EmergencyStop {
     released_ = std::max(released_, presses);
   }
 
-  // From now on, a press stops `board`, until guard(nullptr) is called. If an earlier press is
-  // still in effect, stops `board` at once.
+  // Makes every press from now on stop `board`, until guard(nullptr) is called. If an earlier press
+  // is still in effect, stops `board` at once.
   void guard(Board* board) {
     const std::lock_guard lock(mutex_);
     board_ = board;

@@ -40,7 +40,7 @@ class LivePreview {
   std::vector<std::array<float, 3>> cloud_from(std::size_t first) const;
 
  private:
-  const std::size_t share_;  // largest number of points from one profile
+  const std::size_t share_;  // largest number of points that one profile contributes
 
   mutable std::mutex mutex_;            // guards the members below
   std::shared_ptr<const Frame> frame_;  // the last frame, at the camera's full size

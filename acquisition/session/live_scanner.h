@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera and the board of a scanner, opened and ready to measure. Laser and motor go off when
-// the LiveScanner is destroyed or its process ends.
+// The camera and the board of a scanner, opened and ready to measure. Laser and motor are switched
+// off when the LiveScanner is destroyed or its process ends.
 #pragma once
 
 #include <functional>

@@ -20,7 +20,7 @@ namespace vitrine::acquisition {
 inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
 
 struct JournalContents {
-  std::vector<Profile> profiles;  // index: the step, from 0
+  std::vector<Profile> profiles;  // indexed by step, from 0
   // Stripe counts; the index is the step. Records of kind kUncounted give only an approximate
   // number of rows.
   std::vector<StripeCount> stripes;
@@ -39,17 +39,18 @@ class ProfileJournal {
   static Expected<ProfileJournal> open(const std::filesystem::path& path,
                                        JournalContents& contents);
 
-  // Appends the profile of the next step and the counts of its stripe. The record is on disk on
-  // return. After an error (kIo, such as a full disk) the file must be reopened.
+  // Appends the profile of the next step and the counts of its stripe. When the function returns,
+  // the record is on disk. After an error (kIo, such as a full disk), the file must be reopened.
   Expected<void> append(const Profile& profile, const StripeCount& stripe);
 
   // Keeps the first `kept` profiles and discards the others, whose steps must be measured again.
-  // `steps_done` is the number of steps done before this call. The record is on disk on return.
+  // `steps_done` is the number of steps done before this call. When the function returns, the
+  // record is on disk.
   Expected<void> give_up(int kept, int steps_done);
 
-  // Records that the table stands at `step` or moves there. (The motion completes even if this
-  // process ends.) The record survives the end of this process at once. It survives a power failure
-  // only after the next profile is written.
+  // Records that the table stands at `step` or is moving there. (The motion completes even if this
+  // process ends.) The record immediately survives the end of this process. It survives a power
+  // failure only after the next profile is written.
   Expected<void> note_turn(int step);
 
  private:

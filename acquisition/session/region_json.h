@@ -8,7 +8,7 @@
 namespace vitrine::acquisition {
 
 inline SensorRegion region_in(JsonMembers& root) {
-  constexpr int kMost = 1 << 15;  // pixels: limit of each value
+  constexpr int kMost = 1 << 15;  // limit of each value, in pixels
   auto members = root.object("region", {"x", "y", "width", "height"});
   const SensorRegion region{.x = members.whole("x", 0, kMost, 0),
                             .y = members.whole("y", 0, kMost, 0),

@@ -11,8 +11,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Returns the calibration with that number: the scan's own one, or another one of the same camera
-// and region.
+// Returns calibration number `number`. It may be the scan's own calibration or another one for the
+// same camera and region.
 Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::path& calibrations,
                              int number) {
   if (number == record.calibration) return calibration_of(record, calibrations);
@@ -32,8 +32,8 @@ Expected<void> check_journal(const ScanFolder& folder, int steps_there, int step
                           folder.journal().string(), steps_there, steps));
 }
 
-// Returns the name of the first option that requires new points from the pictures. Returns null if
-// no option does.
+// Returns a description of the first option for which the points must be measured again from the
+// pictures. Returns null if there is no such option.
 const char* other_points(const ScanRequest& scan, int own, const ReprocessOptions& options) {
   if (options.calibration != 0 && options.calibration != own) return "another calibration";
   return options.processing.stripe == scan.processing.stripe ? nullptr : "another stripe method";

@@ -73,7 +73,7 @@ Scan::Scan(Scanner scanner, const ScanRequest& request, ScanFolder folder, ScanS
 }
 
 Scan::~Scan() {
-  (void)pause();  // fails if the scan is not running, which is fine here
+  (void)pause();  // fails if the scan is not running, which is no fault here
   if (thread_.joinable()) thread_.join();
 }
 
@@ -90,7 +90,7 @@ Expected<void> Scan::resume() try {
   surface_.reset();
   enter(ScanState::kChecking);
   return {};
-} catch (const std::exception& fault) {  // the system could not start the thread
+} catch (const std::exception& fault) {  // for example, the system could not start the thread
   return tl::unexpected(error_of(fault));
 }
 
@@ -198,14 +198,14 @@ void Scan::work() {
     surface_ = std::move(*outcome);
   }
   status_.error = end.error;
-  // Ignores an error. The state only tells a later process how the scan ended. Without it, the scan
-  // counts as resumable.
+  // Ignores an error. The state only tells a later process how the scan ended. If it is missing,
+  // the scan counts as resumable.
   (void)folder_.write_state(end);
   enter(end.state);
 }
 
-// Runs the scan and makes the mesh. Returns null if the scan was interrupted. An exception, here or
-// in the measuring thread, makes this scan fail but does not end the process.
+// Runs the scan and makes the mesh. Returns null if the scan was interrupted. An exception in this
+// thread or in the measuring thread makes the scan fail, but does not end the process.
 Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() try {
   ScanRun run({.scanner = scanner_,
                .request = request_,

@@ -34,8 +34,8 @@ class Scan : private ScanWatch {
   ~Scan() override;  // pauses a running scan
 
   // resume() starts an idle scan, continues a paused or failed scan, or makes the mesh of a
-  // finished scan again. resume(), pause() and cancel() return at once. They fail with kState if
-  // the scan's state does not allow the call, and with kIo if no thread can be started.
+  // finished scan again. resume(), pause() and cancel() do not wait for the scan. They fail with
+  // kState if the scan's state does not allow the call, and with kIo if no thread can be started.
   Expected<void> resume();
   Expected<void> pause();   // takes effect after the current step
   Expected<void> cancel();  // measured steps stay in the folder
@@ -44,14 +44,14 @@ class Scan : private ScanWatch {
   void emergency_stop() noexcept;
 
   ScanStatus status() const;
-  // Waits until the scan is not checking, scanning or meshing, but no longer than `at_most`.
+  // Waits until the scan is not checking, scanning or meshing, but at most for the time `at_most`.
   // Returns the status.
   ScanStatus wait(std::chrono::milliseconds at_most) const;
   const LivePreview& preview() const { return preview_; }
   const ScanFolder& folder() const { return folder_; }
 
-  // Returns the mesh. Null before the scan is done, and after resume() until the scan is done
-  // again.
+  // Returns the mesh. Returns null until the scan is done, and also after resume() until the scan
+  // is done again.
   std::shared_ptr<const ScannedSurface> surface() const;
 
  private:
@@ -68,7 +68,7 @@ class Scan : private ScanWatch {
   void work();
   Expected<std::shared_ptr<const ScannedSurface>> run_and_mesh();
   void enter(ScanState state);  // the caller must hold mutex_
-  double now() const;           // seconds
+  double now() const;           // returns the time in seconds
 
   const Scanner scanner_;
   const ScanRequest request_;

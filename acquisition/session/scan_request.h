@@ -14,8 +14,8 @@ namespace vitrine::acquisition {
 
 inline constexpr int kLeastSteps = 8, kMostSteps = 36'000;
 inline constexpr int kMostCalibration = 1'000'000'000;       // largest number of a calibration
-inline constexpr double kMostExposure = 1e6;                 // microseconds
-inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // degrees, mm
+inline constexpr double kMostExposure = 1e6;                 // in microseconds
+inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // in degrees and in mm
 
 // Names of the values of SamplingMethod and StripeMethod, in the order of the enumerations.
 inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant", "paper",
@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant"
 inline constexpr std::array<std::string_view, 3> kStripeNames = {"derivative-of-gaussian",
                                                                  "centre-of-mass", "blais-rioux"};
 
-inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // points
+inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // numbers of points
 
 struct ScanRequest {
   int steps = 720;                    // steps in one revolution, kLeastSteps to kMostSteps
@@ -42,7 +42,7 @@ struct ScanRecord {
   ScanRequest request;
   std::string created;             // UTC, such as 2026-11-23T08:00:00Z
   std::string scanner;             // name of the scanner
-  std::string camera;              // serial number
+  std::string camera;              // the camera's serial number
   CameraSettings settings;         // the settings that the scan used
   std::string board;               // dialect and serial number of the board
   int calibration = 0;             // number of the calibration

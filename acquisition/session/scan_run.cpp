@@ -59,8 +59,8 @@ Expected<void> ScanRun::open_folder() {
   Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
     judged = stripe_watch_->add(stripes_[step], step + 1);
-  // This judgement fails only if an earlier process crashed after storing the last step and before
-  // judging it.
+  // The verdict is an error only if an earlier process crashed after it had stored the last step
+  // and before it had judged this step.
   if (!judged) return refuse(judged.error());
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
@@ -132,7 +132,7 @@ ScanRun::StepOutcome ScanRun::prepare(LiveScanner& scanner) {
   return {};
 }
 
-// Chooses the calibration: the requested one, or the newest for this camera and region.
+// Chooses the calibration: the requested one, or the newest one for this camera and region.
 Expected<void> ScanRun::identify(const LiveScanner& scanner) {
   if (record_) return same_camera(*record_, scanner);
   const CalibrationStore store(means_.scanner.calibrations);
@@ -233,7 +233,7 @@ Expected<void> ScanRun::settle() {
   return judged ? Expected<void>{} : refuse(judged.error());
 }
 
-// Discards the steps that the stripe watch judged together, and returns `judgement`. A resumed scan
+// Discards the steps that the stripe watch has just judged, and returns `judgement`. A resumed scan
 // measures these steps again.
 Expected<void> ScanRun::refuse(const Error& judgement) {
   const int kept = steps_done() - stripe_watch_->span();

@@ -4,8 +4,8 @@
 // it to disk.
 //
 // While the table turns and the camera exposes step k, another thread computes and writes the
-// profile of step k - 1. Step k + 1 starts only when that profile is on disk. So the disk is at
-// most one step behind the table. The camera waits only if computing and writing a profile takes
+// profile of step k - 1. Step k + 1 starts only when that profile is on disk. The disk is therefore
+// at most one step behind the table. The camera waits only if computing and writing a profile takes
 // longer than a step. Steps lost in a crash are scanned again. The journal also records the table's
 // angle, for boards that forget it.
 #pragma once
@@ -40,7 +40,7 @@ class ScanWatch {
   virtual ~ScanWatch() = default;
 
   virtual bool is_interrupted() const = 0;
-  // Sleeps for `at_most`, or less if the run is interrupted.
+  // Sleeps for the time `at_most`, or less if the run is interrupted.
   virtual void sleep(std::chrono::milliseconds at_most) = 0;
   virtual void checks_passed() = 0;
   virtual void step_done(int steps_done, const StripeCount& so_far) = 0;
@@ -62,9 +62,9 @@ class ScanRun {
 
   explicit ScanRun(const Means& means) : means_(means) {}
 
-  // Scans until all steps are on disk or the watch interrupts the run. Laser and motor are off on
-  // return. Fails with the error that stopped the scan. A later run continues after the steps on
-  // disk.
+  // Scans until all steps are on disk or the watch interrupts the run. Laser and motor are off when
+  // the function returns. Fails with the error that stopped the scan. A later run continues after
+  // the steps on disk.
   Expected<void> run();
 
   std::vector<Profile> take_profiles() { return std::move(profiles_); }
@@ -80,7 +80,8 @@ class ScanRun {
   };
   using StepOutcome = tl::expected<void, Setback>;
 
-  // Number of failed attempts since the last completed step.
+  // Numbers of failed attempts since the last completed step: all of them, and those to turn the
+  // table.
   struct Tries {
     int all = 0, turns = 0;
   };

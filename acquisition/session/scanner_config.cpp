@@ -68,7 +68,7 @@ void check_members(const CharucoTarget& target, JsonMembers& members) {
   if (!(target.marker_mm > 0 && target.marker_mm < target.square_mm))
     members.fault("marker_mm", "must be larger than 0 and smaller than \"square_mm\"");
   if (const auto known = check_target(target); !known) {
-    // The error message without its remedy, which is cut off below because fault() adds its own.
+    // The error message. Its remedy is cut off below, because fault() adds its own remedy.
     const std::string& reason = known.error().message;
     members.fault("dictionary",
                   fmt::format("does not fit: {}", reason.substr(0, reason.rfind("; "))));
@@ -79,7 +79,7 @@ void check_members(const CharucoTarget& target, JsonMembers& members) {
 // no target.
 CharucoTarget target_in(JsonMembers& root) {
   constexpr int kLeastSquares = 3, kMostSquares = 64;
-  constexpr double kLargest = 1'000;  // mm: limit of each length
+  constexpr double kLargest = 1'000;  // limit of each length, in mm
   auto members =
       root.object("target", {"squares_x", "squares_y", "square_mm", "marker_mm", "dictionary"});
   CharucoTarget target{.squares_x = members.whole("squares_x", kLeastSquares, kMostSquares, 0),

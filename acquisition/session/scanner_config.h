@@ -24,8 +24,8 @@ struct ScannerConfig {
   std::filesystem::path rig;
 };
 
-// Read the configuration. Relative paths start at the file's folder. Both fail with kIo or
-// kBadInput; the error names file, key and expected value.
+// Both functions read the configuration. Relative paths are relative to the file's folder. Both
+// fail with kIo or kBadInput; the error names the file, the key and the expected value.
 Expected<ScannerConfig> read_scanner_config(const std::filesystem::path& path);
 Expected<ScannerConfig> parse_scanner_config(std::string_view text,
                                              const std::filesystem::path& path);

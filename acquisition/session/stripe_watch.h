@@ -33,7 +33,7 @@ class StripeWatch {
   const int accepted_;
   std::vector<StripeCount> last_;
   std::size_t good_ = 0;  // number of good judgements in a row
-  // Whether a lost stripe (is_lost_) or another condition (is_odd_) has been reported.
+  // Whether a lost stripe (is_lost_) or another fault of the stripe (is_odd_) has been reported.
   bool is_lost_ = false, is_odd_ = false;
 };
 

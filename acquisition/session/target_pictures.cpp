@@ -14,7 +14,7 @@ namespace {
 
 // Degrees by which the table turns to find out whether the target turns with it.
 constexpr double kProbeAngle = 10;
-constexpr double kHeldStill = 2;  // pixels: a corner that moves less counts as still
+constexpr double kHeldStill = 2;  // largest motion in pixels of a corner that counts as still
 
 // Returns whether all corners seen in both views have stayed in place.
 bool is_same_place(const TargetView& a, const TargetView& b) {

@@ -28,8 +28,8 @@ struct TargetPictureOptions {
 };
 
 // Takes all pictures. Fails with the error of a device, with kState if interrupted, or with
-// kBadInput if no picture shows the target ("target never seen"). Laser and motor are off on
-// return.
+// kBadInput if no picture shows the target ("target never seen"). Laser and motor are off when the
+// function returns.
 Expected<CalibrationInput> picture_target(const Scanner& scanner, const CharucoTarget& target,
                                           const PlaceTarget& place, EmergencyStop& stop,
                                           const TargetPictureOptions& options = {});

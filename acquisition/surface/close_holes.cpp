@@ -57,8 +57,8 @@ class Loop {
     return std::max({size.x, size.y, size.z});
   }
 
-  // Returns whether the loop is the rim of a hole. Faces are counter-clockwise. So the outer rim of
-  // a piece of surface is counter-clockwise too, and the rim of a hole is clockwise.
+  // Returns whether the loop is the rim of a hole. Faces are counter-clockwise. The outer rim of a
+  // piece of surface is therefore counter-clockwise as well, and the rim of a hole is clockwise.
   bool is_hole() const {
     Vec3 area, normal;
     for (const BoundaryEdge& e : edges_) {

@@ -12,7 +12,7 @@ constexpr double kDepths = 4;  // largest depth difference, in multiples of s_ma
 // Share of the points that lie within the radius at which the distance between steps is measured.
 constexpr double kOutermost = .95;
 
-constexpr double kLeastHeight = 1e-3;  // mm: less than the distance between rows of a real camera
+constexpr double kLeastHeight = 1e-3;  // in mm; the rows of a real camera are farther apart
 
 // In sampled profiles, the distances between rows vary. Two consecutive points then have a gap
 // between them only if they are farther apart than this multiple of the median number of rows.

@@ -41,7 +41,7 @@ struct Spacing {
   int rows = 1;
   // Consecutive points at most this many rows apart have no gap between them.
   int gap = 1;
-  double row_height = 1;  // mm: median height of a row
+  double row_height = 1;  // median height of a row, in mm
   // s_max of [WLL] eq. 5, in mm: the larger of the spacing along strands and the spacing between
   // steps.
   double largest = 0;

@@ -9,7 +9,7 @@
 namespace vitrine::acquisition {
 
 // Returns for each point of `strand` the index of the strand of `step` that is nearest at the
-// point's row. If `step` has only one strand, returns that one. O(points).
+// point's row. If `step` has only one strand, returns that one. Takes O(points) time.
 std::vector<std::size_t> nearest_strands(const Cloud& cloud, std::size_t strand, std::size_t step);
 
 }  // namespace vitrine::acquisition

@@ -12,7 +12,7 @@ namespace vitrine::acquisition {
 
 // Returns one flag for each point: whether to keep the point. A point with negative rho is dropped
 // if a point with positive rho is closer than `reach` mm, because the two sheets would not form one
-// surface. O(n log n).
+// surface. Takes O(n log n) time.
 std::vector<bool> first_views(const Cloud& cloud, double reach);
 
 }  // namespace vitrine::acquisition

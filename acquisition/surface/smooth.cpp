@@ -32,7 +32,7 @@ class Basis {
         terms_.push_back({1, p, q, p * p, p * q, q * q});
       }
     }
-    // Gram-Schmidt orthonormalisation.
+    // Orthonormalises the terms by the Gram-Schmidt method.
     for (std::size_t k = 0; k < kTerms; ++k) {
       for (std::size_t j = 0; j < k; ++j)
         subtract(k, j, product(k, j));

@@ -7,7 +7,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Number of following steps to search. Two, because one picture may be missing.
+// Number of following steps to search. It is 2, because one picture may be missing.
 constexpr std::size_t kStepsOn = 2;
 // Number of following points to search within a strand. In other strands, the search covers this
 // many points on either side.
@@ -66,7 +66,8 @@ class Neighbours {
     }
   }
 
-  // Visits the neighbours that points of one strand have in the strands [from, to).
+  // Visits pairs of neighbours: a point of the strand `strand`, and a point of a strand from `from`
+  // to `to` - 1.
   template <class Visit>
   void between(std::size_t strand, std::size_t from, std::size_t to, Visit visit) const {
     const auto& points = cloud_.strands[strand].points;

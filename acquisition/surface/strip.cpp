@@ -10,7 +10,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Cost of advancing without a triangle, as a multiple of Spacing::bridge.
+// Cost of advancing along a strand without a triangle, as a multiple of Spacing::bridge.
 constexpr double kBreak = 10;
 
 struct Side {
@@ -128,7 +128,7 @@ class Strip {
   }
 
   // Stores the path that ends with this step in `way`, unless `way` already holds a cheaper path. A
-  // step without a triangle costs more than any edge.
+  // step without a triangle costs more than an edge of any length.
   void offer(std::size_t i, std::size_t j, bool goes_down_a, bool goes_on, Way& way) const {
     const std::size_t from = goes_down_a ? band_.cell(i - 1, j) : band_.cell(i, j - 1);
     const double length = edges_[band_.cell(i, j)];
@@ -183,7 +183,7 @@ class Strip {
   std::vector<Way> ways_;      // the cheapest path to each edge
 };
 
-// Returns the strands of one step, which will be joined to those of `other`.
+// Returns the strands of `step`, which are to be joined to those of the step `other`.
 std::vector<Side> sides_of(const Cloud& cloud, std::size_t step, std::size_t other,
                            const Spacing& spacing) {
   std::vector<Side> sides;

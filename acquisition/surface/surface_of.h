@@ -16,7 +16,7 @@ struct SurfaceOptions {
   // s_max of [WLL] eq. 5, in mm (Spacing::largest). 0 derives it from the profiles.
   double largest_spacing = 0;
   double largest_angle = 75;        // phi_max of [WLL] eq. 6, in degrees
-  double largest_hole = 2;          // mm; 0 leaves all holes open
+  double largest_hole = 2;          // size in mm; 0 leaves all holes open
   std::size_t smallest_piece = 30;  // pieces with fewer points are dropped
   // Calibrated standard deviation of a point's rho, in mm. 0 disables smoothing.
   double noise = 0;
@@ -32,7 +32,7 @@ struct SurfaceReport {
   std::uint64_t smoothed = 0;    // number of points moved by smoothing (smooth.h)
   std::uint64_t sampled = 0;     // number of points left after sampling
   std::uint64_t holes = 0;       // number of holes closed in the mesh (close_holes.h)
-  double spacing = 0;            // the s_max that was used, mm
+  double spacing = 0;            // the distance s_max ([WLL] eq. 5) that was used, in mm
 };
 
 struct ScannedSurface {
@@ -44,11 +44,11 @@ struct ScannedSurface {
 // Makes a mesh from the `profiles` of one revolution, which may be in any order. The last profile
 // joins the first. Profiles whose rows show two surfaces are split into strands (strands.h), and
 // each strand joins the nearest strands. The order of processing is: drop outliers, isolated points
-// and second views beyond the axis; fill gaps; smooth; sample; mesh; close small holes.
-// No edge has more than two faces, and these traverse it in opposite directions. A vertex may have
-// several fans, which the import splits. The object's top and bottom stay open, apart from holes up
-// to `largest_hole`. Fails with kBadInput, giving the reason, if no points are left to mesh. O(n
-// log n).
+// and second views beyond the axis; fill gaps; smooth; sample; mesh; close small holes. No edge has
+// more than two faces, and these traverse it in opposite directions. A vertex may have several
+// fans, which the import splits. The object's top and bottom stay open, apart from holes up to
+// `largest_hole`. Fails with kBadInput, giving the reason, if no points are left to mesh. Takes O(n
+// log n) time.
 Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
                                     const SurfaceOptions& options);
 

@@ -28,7 +28,7 @@ struct Appearance {
   double ssim = 1;
 };
 
-// The pictures of a model with which other models are compared. They are rendered only once.
+// The pictures of one model, rendered once and compared with the pictures of several other models.
 class AppearanceReference {
  public:
   // Fails (kBadInput) if the mesh has no face or no extent, or a face index is out of range.

@@ -8,7 +8,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kMargin = 8;  // pixels; leaves room for windows of [WBSS04] at the sphere's rim
+// Margin in pixels. It leaves room for the SSIM windows [WBSS04] at the sphere's rim.
+constexpr double kMargin = 8;
 
 // Calls `visit` with the position of each corner of each face. Skips vertices without faces,
 // because they are invisible.

@@ -14,7 +14,7 @@ inline double area_in_space(const Chart& chart, std::uint32_t face) {
   return doubled_area(chart.positions[b] - from, chart.positions[c] - from) / 2;
 }
 
-// Negative if the face is flipped.
+// Returns the area of the face in the plane. The area is negative if the face is flipped.
 inline double area_in_plane(const Chart& chart, std::uint32_t face) {
   const auto& [a, b, c] = chart.wedges[face];
   return cross(chart.uv[b] - chart.uv[a], chart.uv[c] - chart.uv[a]) / 2;

@@ -121,7 +121,7 @@ class HandleCutter {
   // For each wedge, one half-edge of each edge there.
   std::vector<std::vector<std::uint32_t>> around_;
   std::uint32_t dual_nodes_;  // number of nodes: faces, then boundary loops
-  // For each half-edge, the node of its boundary loop.
+  // For each half-edge at a boundary, the node of its boundary loop.
   std::vector<std::uint32_t> dual_of_boundary_;
   std::vector<double> distance_;             // for each wedge, its distance from the root
   std::vector<std::uint32_t> towards_root_;  // for each wedge, the edge to its parent in the tree

@@ -10,7 +10,7 @@
 
 namespace vitrine::inline codec {
 
-// Each function returns one label for each face of the chart, for charts_of().
+// Each function below returns one label for each face of the chart. charts_of() takes these labels.
 
 // Divides the chart into two halves, which grow from two faces far apart.
 std::vector<std::uint32_t> halves(const Chart& chart);

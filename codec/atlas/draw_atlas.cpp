@@ -19,7 +19,8 @@ namespace {
 // From this round on, cuts out bad faces without their neighbours.
 constexpr int kSingleFaceRound = 8;
 constexpr int kRounds = 12;
-// Cutting takes time for each handle, so charts with more handles are halved first.
+// Charts with a larger doubled genus are divided into halves first, because cutting handles takes
+// time in proportion to their number.
 constexpr std::uint32_t kMostDoubledGenus = 64;
 
 std::vector<std::uint32_t> each_alone(const Chart& chart) {

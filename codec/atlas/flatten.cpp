@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kSweeps = 100;
 constexpr int kDirections = 32;
-constexpr double kStill = 1e-4;  // in mean edge lengths; a smaller largest move ends the relaxation
+// the relaxation ends if no wedge moves farther, in mean edge lengths
+constexpr double kStill = 1e-4;
 
 bool has_flipped_face(const Chart& chart) {
   for (std::uint32_t f = 0; f < chart.size(); ++f) {

@@ -93,7 +93,7 @@ class Packer {
 
   std::span<const ChartTriangles> charts_;
   std::int32_t cells_;
-  double gutter_;      // width in cells
+  double gutter_;      // width of the gutter in cells
   double extent_ = 0;  // longest side of any chart's bounding box
   std::vector<Box2> boxes_;
   std::vector<Footprint> footprints_;

@@ -8,14 +8,14 @@
 
 namespace vitrine::inline codec {
 
-// Triangles that cover a chart, in the chart's own plane, unit and orientation. They may overlap:
-// together, the triangles of several levels of detail are the chart's footprint.
+// Triangles that cover a chart, in the chart's own plane, unit and orientation. Triangles may
+// overlap, because they include the triangles of several levels of detail.
 using ChartTriangles = std::vector<std::array<std::array<double, 2>, 3>>;
 
 // Point `uv` of chart i moves to uv * scale + offset[i], which lies in the square [0, 1]^2.
 struct Packing {
   double scale = 1;
-  std::vector<std::array<double, 2>> offset;  // one per chart
+  std::vector<std::array<double, 2>> offset;  // offset of each chart
 };
 
 // Places all charts at the same scale, as large as possible and without rotation. Points of

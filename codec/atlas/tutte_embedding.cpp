@@ -88,7 +88,8 @@ class TutteEmbedding {
       links_.push_back({start(h), middle});
   }
 
-  // Returns the product of the graph's Laplacian and x. Entries of the fixed wedges are zero.
+  // Returns the product of the graph's Laplacian matrix and x. Sets the entries of the fixed wedges
+  // to zero.
   std::vector<Vec2> apply(const std::vector<Vec2>& x) const {
     std::vector<Vec2> image(x.size());
     for (const auto& [a, b] : links_) {

@@ -19,14 +19,14 @@ namespace {
 constexpr double kMostSide = 8192, kLeastSide = 64;
 // Most pixels per side of the smallest picture of a role.
 constexpr std::uint32_t kCoarsestSide = 256;
-// WebP qualities of the finest picture, best first. The first one is used whose picture is not
-// larger, in bytes, than the source's pictures. With less than 88, a small model looks less like
-// its source than it should (codec/simplify/TEXTURES.md, section 7).
+// WebP qualities to try for the finest picture, best first. The first quality is used with which
+// the picture takes no more bytes than the source's pictures. If the best quality were below 88,
+// small models would look visibly worse than their sources (codec/simplify/TEXTURES.md, section 7).
 constexpr std::array<int, 5> kQualities = {88, 84, 80, 75, 70};
 constexpr std::array<int, 3> kSurfaceQualities = {80, 75, 70};
-// WebP qualities of the smaller pictures, for sides above kLargestCoarse and for the others. Coarse
-// pictures are soon replaced; a low quality of theirs saves more bytes than a smaller side
-// (codec/simplify/TEXTURES.md, section 8).
+// WebP qualities of the smaller pictures: kQuality for sides above kLargestCoarse, else
+// kCoarseQuality. A viewer soon replaces coarse pictures, and a lower quality saves more bytes than
+// a smaller side would (codec/simplify/TEXTURES.md, section 8).
 constexpr int kQuality = 80, kCoarseQuality = 60;
 constexpr std::uint32_t kLargestCoarse = 640;
 // Number of texels of the finest picture per texel of the source, on each axis. It exceeds 1
@@ -140,9 +140,11 @@ Expected<std::vector<std::uint8_t>> encode_within(std::uint64_t most_bytes, cons
   return encoded(picture, qualities.back());
 }
 
-// Returns the side of the picture to add between the halvings of a picture with `finest` pixels per
-// side. It is three quarters of the halving that has kLargestCoarse to 2 kLargestCoarse pixels; a
-// page usually shows a model in this size. Returns nullopt if the finest picture is smaller.
+// Returns the side of an extra picture between two halvings of a picture with `finest` pixels per
+// side. Among the halvings, one has more than kLargestCoarse and at most 2 kLargestCoarse pixels
+// per side. The extra picture has three quarters of that side, because web pages usually show a
+// model at about this size. Returns nullopt if the finest picture has at most kLargestCoarse pixels
+// per side.
 std::optional<std::uint32_t> side_between(std::uint32_t finest) {
   std::uint32_t side = finest;
   while (side > 2 * kLargestCoarse)
@@ -151,7 +153,8 @@ std::optional<std::uint32_t> side_between(std::uint32_t finest) {
   return side * 3 / 4;
 }
 
-// Adds a picture with the first of `qualities` that fits `most_bytes`.
+// Adds a picture. Encodes it with the first of `qualities` with which it takes at most
+// `most_bytes`.
 Expected<void> add_picture(AtlasPicture atlas, PictureRole role, std::span<const int> qualities,
                            std::uint64_t most_bytes, BakedTexture& out) {
   const bool has_opacity = role == PictureRole::kBaseColour && out.alpha_mode != AlphaMode::kOpaque;
@@ -162,7 +165,7 @@ Expected<void> add_picture(AtlasPicture atlas, PictureRole role, std::span<const
   return {};
 }
 
-// Adds the picture and its smaller versions, each with half the side.
+// Adds the picture and its smaller versions. Each of these has half the side of the one before.
 Expected<void> add_halvings(AtlasPicture atlas, PictureRole role, std::uint64_t most_bytes,
                             BakedTexture& out) {
   std::span<const int> qualities = kQualities;

@@ -18,7 +18,7 @@ namespace vitrine::inline codec {
 
 struct BakedPicture {
   PictureRole role = PictureRole::kBaseColour;
-  std::uint32_t side = 0;           // pixels per side
+  std::uint32_t side = 0;           // width and height in pixels
   std::vector<std::uint8_t> bytes;  // contents of a WebP file
 };
 
@@ -41,7 +41,7 @@ using DisplayFace = std::array<Vec2, 3>;
 
 // Bakes the textures of `mesh` into pictures of the display atlas. `texturing` belongs to the faces
 // of `mesh`, which have the same order as `display`. The finest picture has about as many texels as
-// the source; that of occlusion, roughness and metalness has a quarter of them.
+// the source; the picture of occlusion, roughness and metalness has a quarter as many.
 //
 // A picture that cannot be decoded is left out, and a note names it. Fails (kUnsupported) only if
 // libwebp refuses a picture. Call this in the sandbox if the pictures are untrusted.

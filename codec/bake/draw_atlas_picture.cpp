@@ -140,8 +140,9 @@ class TexelsAround {
   std::array<float, 4> weights_;
 };
 
-// Finds the picture whose interpolated values differ least from the samples of the source, by least
-// squares. Each round corrects each texel by the mean of the remaining differences around it.
+// Fits a picture, by least squares, so that its interpolated values differ least from the samples
+// of the source. Each round corrects each texel by the mean of the remaining differences near the
+// texel.
 class Fit {
  public:
   Fit(PictureRole role, std::uint32_t side, const TriangleMesh& mesh, const Textures& textures,

@@ -17,8 +17,8 @@ namespace vitrine::inline codec {
 // 1.
 class TangentFrame {
  public:
-  // `ab` and `ac` are edges of the face in its plane; `u` and `v` are the differences of the
-  // coordinates along them.
+  // `ab` and `ac` are two edges of the face, as vectors in its plane. `u` and `v` hold the
+  // differences of the two texture coordinates along `ab` and `ac`.
   TangentFrame(const Vec2& ab, const Vec2& ac, const Vec2& u, const Vec2& v) {
     const double area = cross(ab, ac);
     const double inverse = area != 0 ? 1 / area : 0;

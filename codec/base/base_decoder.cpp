@@ -14,14 +14,15 @@
 namespace vitrine::inline codec {
 namespace {
 
-// The name, bitstream 2.2, a mesh (1) by the edgebreaker method (1), and no metadata.
+// The Draco header: the magic "DRACO", bitstream version 2.2, a mesh (1), coded by the edgebreaker
+// method (1), and no metadata flags.
 constexpr std::array<std::uint8_t, 11> kHeader = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0};
 constexpr std::uint8_t kNoSeams = 0xFF, kPerVertex = 0, kOfIntegers = 1;
 
 enum OrderKind : std::uint8_t { kDepthFirst = 0, kPredictionDegree = 1 };
 using OrderKinds = std::array<OrderKind, 1 + kSemantics>;
 
-// Whether the next bytes of `in` are those of `expected`.
+// Reads as many bytes as `expected` has, and returns whether they equal `expected`.
 template <std::size_t count>
 bool follow(ByteReader& in, const std::array<std::uint8_t, count>& expected) {
   const auto bytes = in.bytes(count);
@@ -33,8 +34,8 @@ Unexpected other_attributes() {
               "the base mesh has other attributes than its model; build the model again");
 }
 
-// Reads how the values of each attribute are coded. The position is the first attribute. Returns
-// the order of the values of each.
+// Reads how the values of each attribute are coded. The first attribute is the position. Returns,
+// for each attribute, the kind of order in which its values are coded.
 Expected<OrderKinds> read_orders(ByteReader& in, const PerSemantic<Semantic>& semantics) {
   const std::size_t count = 1 + semantics.size();
   if (in.u8() != count) return other_attributes();
@@ -49,7 +50,7 @@ Expected<OrderKinds> read_orders(ByteReader& in, const PerSemantic<Semantic>& se
     const std::uint8_t type = i == 0 ? kDracoPosition : draco_type(semantics[i - 1]);
     const std::array<std::uint8_t, 5> row = {1, type, kDracoInt32, 3, 0};
     if (!follow(in, row)) return other_attributes();
-    in.varint32();  // a number that names the attribute
+    in.varint32();  // skips the attribute's unique ID
     if (in.u8() != kOfIntegers) return other_attributes();
   }
   return orders;

@@ -44,8 +44,9 @@ Expected<std::vector<std::uint8_t>> compress(const draco::Mesh& mesh) {
   draco::Encoder encoder;
   encoder.SetSpeedOptions(0, 0);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  // The other variant saves less than a tenth of a byte per face, but its faces can take no bytes
-  // at all, so that the size of a buffer would not bound that of its mesh.
+  // Draco's other variant of the edgebreaker method saves less than a tenth of a byte per face. But
+  // with that variant, a face can take no bytes at all, so the size of a buffer would not bound the
+  // size of its mesh.
   encoder.options().SetGlobalInt("edgebreaker_method", draco::MESH_EDGEBREAKER_STANDARD_ENCODING);
   draco::EncoderBuffer buffer;
   if (const auto status = encoder.EncodeMeshToBuffer(mesh, &buffer); !status.ok()) {

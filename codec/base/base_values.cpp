@@ -13,14 +13,15 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Three integers modulo 2^32.
+// The three components of a value, as integers modulo 2^32.
 using Value = std::array<std::uint32_t, 3>;
 
 enum Prediction : std::uint8_t { kParallelogram = 1, kSeveralParallelograms = 4 };
 constexpr std::uint8_t kWrapped = 1, kCompressed = 1;
 constexpr std::size_t kMostParallelograms = 4;
 
-// Corrections are modulo the size of the range of all values.
+// The range of all values of the attribute. A prediction plus its correction wraps around at the
+// ends of this range (Draco's wrap transform).
 struct Range {
   std::int32_t low, high;
 
@@ -37,7 +38,8 @@ struct Range {
   }
 };
 
-// Bits that say which parallelograms of a vertex do not count.
+// One bit for each parallelogram of a vertex: 1 if the prediction leaves out this parallelogram.
+// `left` is the number of bits not read yet.
 struct Exclusions {
   std::uint32_t left = 0;
   std::optional<RansBits> bits;
@@ -49,14 +51,15 @@ struct Exclusions {
   }
 };
 
-// Adds predictions to corrections, value by value.
+// Turns corrections into values: adds its prediction to each correction, in coded order.
 class Predictor {
  public:
   Predictor(const CornerTable& table, const CodedOrder& order,
             std::vector<std::uint32_t> corrections)
       : table_(table), order_(order), values_(std::move(corrections)) {}
 
-  // Reads what follows the corrections.
+  // Reads the data that follows the corrections: the exclusion bits if `has_several`, and the
+  // range.
   bool read(ByteReader& in, bool has_several) {
     has_several_ = has_several;
     bool is_ok = true;
@@ -67,7 +70,7 @@ class Predictor {
     return is_ok && in.is_ok() && range_.is_valid();
   }
 
-  // Returns false unless there are as many bits as parallelograms.
+  // Computes all values. Returns false unless there is exactly one exclusion bit per parallelogram.
   bool predict_all() {
     Value predicted{};
     for (std::uint32_t i = 0; i < order_.corner.size(); ++i) {
@@ -91,8 +94,8 @@ class Predictor {
   }
 
  private:
-  // Predicts value i from the parallelograms whose other three vertices have their values, or else
-  // by the value before.
+  // Predicts value i as the mean of those parallelograms whose other three vertices have known
+  // values. Predicts the previous value if there is no such parallelogram.
   bool predict(std::uint32_t i, Value& out) {
     std::array<Value, kMostParallelograms> found;
     const std::size_t count = has_several_ ? find(i, found) : parallelogram(i, found[0]);
@@ -120,7 +123,9 @@ class Predictor {
     return parallelogram(i, order_.corner[i], out);
   }
 
-  // The parallelogram across the edge opposite to the corner c.
+  // Predicts value i from the parallelogram whose fourth vertex lies across the edge opposite to
+  // corner c. Returns false if that edge is a boundary edge or one of the other three values is
+  // unknown.
   bool parallelogram(std::uint32_t i, Corner c, Value& out) const {
     const Corner across = table_.opposite[c];
     if (across == kNoCorner) return false;
@@ -131,7 +136,8 @@ class Predictor {
     return true;
   }
 
-  // Finds parallelograms around the vertex: first to the left, at the boundary then to the right.
+  // Finds the parallelograms at the corners around a vertex. Goes to the left from the first
+  // corner. At a boundary, returns to the first corner and goes to the right.
   std::size_t find(std::uint32_t i, std::array<Value, kMostParallelograms>& out) const {
     const Corner first = order_.corner[i];
     std::size_t count = 0;
@@ -154,9 +160,11 @@ class Predictor {
 
   const CornerTable& table_;
   const CodedOrder& order_;
-  // Three integers per value, in coded order. Values that are not predicted yet are corrections.
+  // Three integers per vertex, in coded order. They hold the correction until the value is
+  // predicted.
   std::vector<std::uint32_t> values_;
-  std::array<Exclusions, kMostParallelograms> exclusions_;  // by the number of parallelograms
+  // Entry i belongs to vertices with i + 1 parallelograms.
+  std::array<Exclusions, kMostParallelograms> exclusions_;
   bool has_several_ = false;
   Range range_{};
 };
@@ -172,7 +180,8 @@ Expected<std::vector<Vec3i>> read_values(ByteReader& in, const CornerTable& tabl
                 "the base mesh predicts its values in another way; build the model again");
   auto corrections = read_symbols(in, static_cast<std::uint32_t>(order.corner.size()));
   if (corrections.empty()) return damaged_base("its values are no symbols");
-  for (std::uint32_t& correction : corrections)  // even symbols are positive, odd ones negative
+  // even symbols stand for numbers >= 0, odd ones for numbers < 0
+  for (std::uint32_t& correction : corrections)
     correction = correction >> 1 ^ -(correction & 1);
   Predictor predictor(table, order, std::move(corrections));
   if (!predictor.read(in, prediction == kSeveralParallelograms) || !predictor.predict_all())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the values of an attribute of the base mesh. Draco predicts each value from the
-// parallelograms [TG98] of its vertex. Internal to codec/base.
+// Reads the values of one attribute of the base mesh. Draco predicts a vertex's value from
+// parallelograms [TG98] that the vertex forms with neighbours. Internal to codec/base.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@
 
 namespace vitrine::inline codec {
 
-// Reads one value per vertex of `table`, and leaves `in` behind them. `order` must have a rank for
-// each vertex. Returns the values by vertex. Fails (kBadInput) if they are damaged, and
-// (kUnsupported) if they are predicted in another way than by this codec's encoder.
+// Reads one value per vertex of `table`, and leaves `in` after the last value. `order` must have a
+// rank for each vertex. Returns the values, indexed by vertex. Fails (kBadInput) if the bytes are
+// damaged, and (kUnsupported) if they use a prediction method that this codec's encoder never uses.
 Expected<std::vector<Vec3i>> read_values(ByteReader& in, const CornerTable& table,
                                          const CodedOrder& order);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kUnknown = 0xFFFF'FFFFu;
 
-// The faces and vertices that a walk has reached. Both walks share this.
+// Base class of both walks: the faces and vertices that a walk has reached so far.
 class Walk {
  public:
   explicit Walk(const CornerTable& table) : table_(table), is_done_(table.face_count()) {
@@ -37,7 +37,7 @@ class Walk {
 
  private:
   const CornerTable& table_;
-  std::vector<bool> is_done_;  // per face
+  std::vector<bool> is_done_;  // per face: whether the walk has finished it
   CodedOrder order_;
 };
 
@@ -58,7 +58,8 @@ class DepthFirstWalk : public Walk {
   }
 
  private:
-  // Walks from face to face until there is no way or a choice. Appends the choices to `open`.
+  // Walks from face to face until both neighbours of a face are open, or neither is. If both are
+  // open, appends them to `open`.
   void follow(Corner c, std::vector<Corner>& open) {
     for (;;) {
       finish(c);
@@ -109,7 +110,7 @@ class PredictionDegreeWalk : public Walk {
     }
   }
 
-  // Returns c if the walk continues there at once. Otherwise keeps c for later and returns
+  // Returns c if the walk may continue there at once. Otherwise stores c in `open_` and returns
   // kNoCorner.
   Corner try_next(Corner c, bool may_continue) {
     const std::size_t priority = priority_of(c);
@@ -136,8 +137,9 @@ class PredictionDegreeWalk : public Walk {
   }
 
   const CornerTable& table_;
-  std::vector<std::uint32_t> degree_;        // per vertex: the faces from which it was seen
-  std::array<std::vector<Corner>, 3> open_;  // per priority, the first of which comes first
+  // per vertex: the number of faces from which it was seen
+  std::vector<std::uint32_t> degree_;
+  std::array<std::vector<Corner>, 3> open_;  // one stack per priority; 0 is visited first
   std::size_t best_ = 0;
 };
 

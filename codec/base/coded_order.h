@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which Draco codes the values of an attribute: that in which a walk over the faces
-// reaches the vertices. Internal to codec/base.
+// The order in which Draco codes the values of an attribute. Two kinds of walk over the faces
+// define two orders: the order in which the walk reaches the vertices. Internal to codec/base.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,17 @@
 namespace vitrine::inline codec {
 
 struct CodedOrder {
-  std::vector<Corner> corner;       // per value: the corner at which its vertex is reached
-  std::vector<std::uint32_t> rank;  // per vertex: the number of its value
+  // per coded value: the corner at which the walk reached its vertex
+  std::vector<Corner> corner;
+  std::vector<std::uint32_t> rank;  // per vertex: the index of its value in coded order
 };
 
-// Walks into one direction as far as possible, then back to the last face with another neighbour.
+// Depth-first walk: proceeds from face to face as far as possible, then returns to the last face
+// that has another unvisited neighbour.
 CodedOrder depth_first_order(const CornerTable& table);
 
-// Prefers faces whose vertices are known, then those whose new vertex can be predicted from several
-// faces.
+// Walk that prefers faces whose three vertices are known, then faces whose unknown vertex is next
+// to several visited faces, because several predictions can be averaged there.
 CodedOrder prediction_degree_order(const CornerTable& table);
 
 }  // namespace vitrine::inline codec

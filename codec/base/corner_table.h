@@ -11,15 +11,16 @@
 namespace vitrine::inline codec {
 
 struct CornerTable {
-  std::vector<VertexId> vertex;  // per corner
+  std::vector<VertexId> vertex;  // per corner: its vertex
   std::vector<Corner> opposite;  // per corner; kNoCorner if its opposite edge is at the boundary
-  std::vector<Corner> leftmost;  // per vertex: a corner, at the boundary the last one to the left
+  // per vertex: one of its corners; at the boundary, the last one counter-clockwise
+  std::vector<Corner> leftmost;
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(leftmost.size()); }
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(vertex.size() / 3); }
 
-  // The next corner at the same vertex, counter-clockwise or clockwise. Returns kNoCorner at the
-  // boundary.
+  // Return the next corner at the same vertex: swing_left() counter-clockwise, swing_right()
+  // clockwise. Return kNoCorner at the boundary.
   Corner swing_left(Corner c) const {
     const Corner across = opposite[next(c)];
     return across == kNoCorner ? kNoCorner : next(across);

@@ -9,9 +9,9 @@
 
 namespace vitrine::inline codec {
 
-inline constexpr std::uint8_t kDracoPosition = 0;  // attribute types
+inline constexpr std::uint8_t kDracoPosition = 0;  // Draco's attribute type for positions
 inline constexpr std::uint8_t kDracoColour = 2;
-inline constexpr std::uint8_t kDracoInt32 = 5;  // data type
+inline constexpr std::uint8_t kDracoInt32 = 5;  // Draco's data type for 32-bit integers
 
 // Returns the Draco attribute type that stores `semantic`.
 constexpr std::uint8_t draco_type(Semantic semantic) {

@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::uint8_t kStandard = 0;  // variant of the edgebreaker method
 
-// How a face adjoins the faces before it.
+// How a face adjoins the part of the surface that is already built (the symbols of [Rossignac99]).
 enum Symbol : std::uint32_t { kC = 0, kS = 1, kL = 3, kR = 5, kE = 7 };
 
-// An edge of the face `source` that stays free until a later face, `join`, is glued to it. `join`
-// has the symbol S. Such edges occur on surfaces with handles or boundary loops. Both members are
-// indices of symbols, counted from the last symbol.
+// A boundary edge of the face `source` to which a later face, `join`, is glued. `join` has the
+// symbol S. Such edges occur on surfaces with handles or boundary loops. Both members are indices
+// of symbols, counted from the last symbol.
 struct LateEdge {
   std::uint32_t source = 0, join = 0;
-  // true: the edge is opposite to the second corner of `source`; false: to the third corner.
+  // If true, the edge is opposite to the second corner of `source`; if false, to the third corner.
   bool is_next = false;
 };
 
@@ -28,8 +28,9 @@ struct LateEdge {
 // edge, where the next face is added. Every function returns false if the face does not fit.
 class FaceBuilder {
  public:
-  // `vertices` is the most vertices that may be added, including those that are joined later.
-  // `faces` is the number of all faces, and `symbols` the number of faces that have a symbol.
+  // `vertices` is the largest number of vertices that may be added, including vertices that are
+  // later merged with others. `faces` is the number of all faces, and `symbols` the number of faces
+  // that have a symbol.
   FaceBuilder(std::uint32_t vertices, std::uint32_t faces, std::uint32_t symbols)
       : late_corner_(symbols, kNoCorner), symbols_(symbols) {
     table_.vertex.resize(3 * std::size_t{faces}, kNoCorner);
@@ -40,7 +41,7 @@ class FaceBuilder {
   bool read_late_edges(ByteReader& in);
   bool add(std::uint32_t symbol);
   bool add_first_faces(RansBits& is_inner);
-  // Numbers the vertices as Draco numbers points.
+  // Numbers the vertices in the order in which Draco numbers its points.
   bool number_vertices(bool has_attributes);
   CornerTable take() { return std::move(table_); }
 
@@ -110,13 +111,13 @@ bool FaceBuilder::add(std::uint32_t symbol) {
   return true;
 }
 
-// E: the first face of a part.
+// Symbol E: adds the first face of a new part.
 bool FaceBuilder::begin(Corner x) {
   active_.push_back(x);
   return add_vertex(x) && add_vertex(x + 1) && add_vertex(x + 2);
 }
 
-// L and R: a face between the active edge and a new vertex.
+// Symbols L and R: adds a face at the active edge, with a new vertex.
 bool FaceBuilder::extend(Corner x, bool is_right) {
   const Corner a = active_.back();
   const Corner tip = is_right ? x + 2 : x + 1;
@@ -130,8 +131,8 @@ bool FaceBuilder::extend(Corner x, bool is_right) {
   return true;
 }
 
-// C: a face between the active edge and the next boundary edge. Their common vertex leaves the
-// boundary.
+// Symbol C: adds a face between the active edge and the next boundary edge. The common vertex of
+// these two edges leaves the boundary.
 bool FaceBuilder::fill(Corner x) {
   const Corner a = active_.back(), b = boundary_at(next(a));
   if (!are_free(a, b)) return false;
@@ -148,8 +149,8 @@ bool FaceBuilder::fill(Corner x) {
   return true;
 }
 
-// S: a face between the active edges of two parts, or between an active edge and a late edge. One
-// end of each edge is joined to one end of the other.
+// Symbol S: adds a face between the active edges of two parts, or between an active edge and a late
+// edge. Merges one end of the one edge with one end of the other.
 bool FaceBuilder::join(Corner x) {
   const Corner b = active_.back();
   active_.pop_back();
@@ -191,7 +192,7 @@ bool FaceBuilder::keep_late_edges() {
   return true;
 }
 
-// Each part began at a boundary edge or at an inner face. An inner face has no symbol: it fills the
+// Each part began at a boundary edge or at an inner face. An inner face has no symbol. It fills the
 // last hole of its part, which has three edges.
 bool FaceBuilder::add_first_faces(RansBits& is_inner) {
   for (; !active_.empty(); active_.pop_back()) {
@@ -226,8 +227,9 @@ bool FaceBuilder::number_vertices(bool has_attributes) {
   return std::find(table_.vertex.begin(), table_.vertex.end(), kNoCorner) == table_.vertex.end();
 }
 
-// Returns the vertices that are left, in the order of Draco's points. With attributes, the vertices
-// behind a removed vertex move up. Without attributes, the last vertex takes its place.
+// Returns the vertices that were not merged into others, in the order of Draco's points. With
+// attributes, the vertices behind a removed vertex move up. Without attributes, the last vertex
+// takes its place.
 std::vector<VertexId> FaceBuilder::numbered(bool has_attributes) const {
   std::vector<VertexId> at;
   for (VertexId v = 0; v < vertices_; ++v) {
@@ -267,8 +269,8 @@ Expected<CornerTable> read_connectivity(ByteReader& in, const BaseCounts& counts
   const std::uint64_t vertices = in.varint32(), faces = in.varint32();
   if (vertices != counts.vertices || faces != counts.faces || in.u8() != counts.attributes)
     return damaged_base("its counts are not those of the header");
-  // Each symbol has at least one bit, so the bytes that are left bound the number of symbols and
-  // the memory to allocate.
+  // Each symbol has at least one bit, so the number of remaining bytes bounds the number of symbols
+  // and the memory to allocate.
   const std::uint64_t symbols = in.varint32(), joins = in.varint32();
   if (symbols > 8 * std::uint64_t{in.left()} || symbols > faces || faces > symbols + symbols / 3 ||
       joins > symbols || vertices > 3 * faces)

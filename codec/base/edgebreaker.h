@@ -13,14 +13,15 @@ namespace vitrine::inline codec {
 
 struct BaseCounts {
   std::uint32_t vertices = 0, faces = 0;
-  std::uint32_t attributes = 0;  // without the position; at most 255
+  std::uint32_t attributes = 0;  // number of attributes besides the position; at most 255
 };
 
-// Reads the connectivity section of a Draco buffer, and leaves `in` behind it. Vertices have the
-// numbers of Draco's points. Fails (kBadInput) if the section is damaged or if its counts differ
-// from `counts`. Fails (kUnsupported) if it uses a variant of the method or seams, which this
-// codec's encoder never does. The table is a valid mesh only if Connectivity::close accepts its
-// faces; otherwise only its indices are in range. Allocates at most 700 bytes per byte of `in`.
+// Reads the connectivity section of a Draco buffer, and leaves `in` at the end of the section.
+// Vertices have the numbers of Draco's points. Fails (kBadInput) if the section is damaged or if
+// its counts differ from `counts`. Fails (kUnsupported) if it has seams or uses a variant of the
+// method that this codec's encoder never uses. The table is a valid mesh only if
+// Connectivity::close accepts its faces; otherwise only its indices are in range. Allocates at most
+// 700 bytes per byte of `in`.
 Expected<CornerTable> read_connectivity(ByteReader& in, const BaseCounts& counts);
 
 }  // namespace vitrine::inline codec

@@ -13,8 +13,8 @@ std::span<const std::uint8_t> read_sized(ByteReader& in) {
 RansState::RansState(std::span<const std::uint8_t> bytes, std::uint32_t low, std::size_t most)
     : bytes_(bytes), low_(low) {
   if (bytes_.empty()) return;
-  // The two highest bits of the last byte are the number of bytes before it that belong to the
-  // first state.
+  // The last byte holds the initial state's highest six bits. Its own two highest bits are the
+  // number of preceding bytes that also belong to the initial state.
   const std::size_t more = bytes_.back() >> 6;
   if (more >= std::min(bytes_.size(), most)) return;
   state_ = bytes_.back() & 0x3Fu;
@@ -50,9 +50,10 @@ RansSymbols::RansSymbols(ByteReader& in, unsigned bits)
       is_ok_(read_table(in)),
       state_(read_sized(in), 4u << precision_, 4) {}
 
-// Each entry of the table starts with a byte. Its two lowest bits are 3 if the other six are one
-// less than a number of symbols that do not occur. Else they are the number of further bytes of a
-// probability.
+// Reads the probabilities of all symbols. Each entry of the table starts with a byte. If its two
+// lowest bits are 3, its other six bits plus 1 are the number of successive symbols that do not
+// occur. Otherwise, these six bits start a probability, and the two lowest bits are the number of
+// bytes that continue it.
 bool RansSymbols::read_table(ByteReader& in) {
   first_ = {0};
   const std::uint32_t symbols = in.varint32();
@@ -92,8 +93,8 @@ std::uint32_t PlainBits::next(unsigned count) {
 
 namespace {
 
-// Tagged symbols: for each vector, the number of bits of its components is a symbol. The bits
-// follow behind all these symbols.
+// Reads vectors in Draco's "tagged" coding. For each vector, a symbol gives the number of bits of
+// each component. The bits themselves follow after the symbols of all vectors.
 std::vector<std::uint32_t> read_tagged(ByteReader& in, std::uint32_t count) {
   RansSymbols lengths(in, 5);
   if (!lengths.is_ok()) return {};

@@ -17,7 +17,8 @@ namespace vitrine::inline codec {
 // are left, returns an empty span, and `in` is not ok.
 std::span<const std::uint8_t> read_sized(ByteReader& in);
 
-// The state of a decoder, which reads its data from the last byte to the first.
+// The state of a range asymmetric numeral system decoder. It reads its data from the last byte to
+// the first.
 class RansState {
  public:
   // The state stays between `low` and 256 * `low` - 1. The initial state has 1 to `most` bytes.
@@ -34,7 +35,7 @@ class RansState {
   bool is_ok_ = false;
 };
 
-// Bits that all have the same probability.
+// Decodes bits that all have the same probability of being 1.
 class RansBits {
  public:
   explicit RansBits(ByteReader& in);
@@ -47,10 +48,10 @@ class RansBits {
   RansState state_;
 };
 
-// Symbols whose probabilities are in a table in front of the data.
+// Decodes symbols. The table of their probabilities precedes the data.
 class RansSymbols {
  public:
-  // The probabilities add up to 2^p, where p is 3/2 `bits`, but at least 12 and at most 20.
+  // The probabilities add up to 2^p, where p is 1.5 * `bits`, clamped to the range from 12 to 20.
   RansSymbols(ByteReader& in, unsigned bits);
 
   bool is_ok() const { return is_ok_ && state_.is_ok(); }
@@ -67,7 +68,7 @@ class RansSymbols {
   RansState state_;
 };
 
-// Plain bits, the lowest bit of each byte first.
+// Reads uncompressed bits, the lowest bit of each byte first.
 class PlainBits {
  public:
   explicit PlainBits(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -78,7 +79,7 @@ class PlainBits {
 
  private:
   std::span<const std::uint8_t> bytes_;
-  std::size_t position_ = 0;  // in bits
+  std::size_t position_ = 0;  // number of bits read so far
   bool is_ok_ = true;
 };
 

@@ -18,12 +18,13 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Share of the picture that charts are assumed to cover when the unit of coordinates is chosen. If
-// less is covered, the unit is chosen again.
+// The unit of coordinates is first chosen as if charts covered this share of the picture. If they
+// cover less, the unit is chosen again.
 constexpr double kCoverage = 0.4;
-constexpr double kGutter = 1.0 / 256;  // distance of charts, as a share of the side of the picture
-constexpr std::size_t kMostFaces = 20'000;  // of a base mesh
-constexpr double kLeastSide = 0.8;          // expected, as a share of kMaxAtlasSide
+constexpr double kGutter = 1.0 / 256;  // least distance of charts, as a share of the picture's side
+constexpr std::size_t kMostFaces = 20'000;  // a base mesh with more faces gets no atlas
+// least expected side of the picture, as a share of kMaxAtlasSide
+constexpr double kLeastSide = 0.8;
 
 // A face of one level, in the coordinates of the picture.
 struct FlatFace {
@@ -77,9 +78,9 @@ double first_scale(const Atlas& atlas) {
          std::min(std::sqrt(kCoverage / std::max(area_of(atlas), 1e-9)), 0.8 / longest);
 }
 
-// Returns the coordinates with `scale` units per unit of length, each chart in the middle of the
-// range of coordinates. Prediction depends only on differences of coordinates within a chart, so a
-// chart can be moved later.
+// Returns the coordinates with `scale` units per unit of length. Each chart lies in the middle of
+// the range of coordinates. Charts can be moved later, because prediction depends only on
+// differences of coordinates within a chart.
 SnappedCoordinates in_middle(const Atlas& atlas, double scale) {
   const ChartBoxes boxes = boxes_of(atlas);
   constexpr double kMiddle = kMaxAtlasSide * 0.5;
@@ -149,7 +150,8 @@ struct ChartPlaces {
   double side;
 };
 
-// Packs charts. They move by whole steps, which brings two of them nearer by up to one step.
+// Packs the charts. Charts are moved by whole steps, which can bring two charts nearer by one step,
+// so the gutter is enlarged by one step.
 ChartPlaces places_of(const std::vector<ChartTriangles>& charts, std::int32_t step) {
   const Packing packing = pack(charts, kGutter + step / (kLeastSide * kMaxAtlasSide));
   ChartPlaces out{.moves = {}, .side = std::ceil(1 / packing.scale) + step};

@@ -57,20 +57,21 @@ int automatic_bits(const TriangleMesh& mesh) {
 // Fractions of a build's time at which reading, simplification and encoding end, from measurements.
 // They convert the progress of a stage to the progress of the whole build.
 constexpr double kRead = 0.02, kSimplified = 0.3, kEncoded = 0.99;
-// Share of the encoding time that is the same for every level. The rest is proportional to the
-// number of vertices that a level adds.
+// Share of the encoding time that is the same for every level. The rest of a level's time is
+// proportional to the number of vertices that the level adds.
 constexpr double kPerLevel = 0.27;
 
 // Returns the size of a base mesh on which a display atlas is drawn: half a percent of the
-// vertices. On a coarser mesh, the texels of fine levels would differ more in size
-// (codec/simplify/TEXTURES.md).
+// vertices, clamped to the range from 300 to 1,500. On a coarser mesh, the sizes of texels in fine
+// levels would vary more (codec/simplify/TEXTURES.md).
 std::uint32_t textured_base_vertices(std::size_t vertices) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(vertices / 200, 300, 1500));
 }
 
 SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& options,
                                  bool is_textured, const ProgressReport& progress) {
-  // With only two regions, a viewer could skip few bytes, and the second region costs bytes itself.
+  // A model this small gets one region. A second region costs bytes, and a viewer that omits one of
+  // two regions saves few bytes.
   const bool few = fine.positions.size() <= 2 * std::size_t{options.region_vertices};
   SimplifyOptions how{.placement = options.placement,
                       .order = options.order,
@@ -83,7 +84,7 @@ SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& op
   return how;
 }
 
-// `original` is the mesh before it was quantised for `hierarchy`.
+// `original` is the mesh from which `hierarchy` was built, before its positions were quantised.
 Expected<EncodedModel> encode(Hierarchy hierarchy, TriangleMesh original, unsigned threads,
                               const ProgressReport& progress) {
   LevelErrors errors(std::move(original), hierarchy, threads);
@@ -154,8 +155,8 @@ Texturing in_order(Texturing texturing, const std::vector<std::uint32_t>& before
   return texturing;
 }
 
-// Lets the kernel page out a memory-mapped file that has been read. Has no harmful effect on other
-// memory.
+// Lets the kernel drop the pages of a memory-mapped file that has been read. The call is harmless
+// for memory of other kinds.
 void let_go(std::span<const std::uint8_t> input) {
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const auto begin = reinterpret_cast<std::uintptr_t>(input.data()) / page * page;

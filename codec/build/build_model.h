@@ -18,8 +18,8 @@
 namespace vitrine::inline codec {
 
 // Default size of a region, in vertices. Slightly less than half of a level's vertices are new.
-// Each new vertex takes one to two bytes in the finest level. A chunk of that level therefore has
-// 10 to 30 KB.
+// Each new vertex takes one to two bytes in the finest level. A chunk of the finest level therefore
+// has 10 to 30 KB.
 inline constexpr std::uint32_t kRegionVertices = 30'000;
 
 struct BuildOptions {
@@ -42,7 +42,7 @@ struct BuildReport {
     std::vector<std::string> repairs;
   };
   struct Seconds {
-    // seconds; `encode` includes the computation of error bounds
+    // durations in seconds; `encode` includes the computation of error bounds
     double read = 0, simplify = 0, encode = 0, write = 0;
   };
 

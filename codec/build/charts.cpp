@@ -6,7 +6,7 @@
 namespace vitrine::inline codec {
 
 // All wedges of a face belong to the same chart. Faces share wedges across every edge that is not a
-// seam, so joining the wedges of each face gives the charts.
+// seam. Uniting the wedges of each face therefore yields the charts.
 std::vector<WedgeId> charts_of(const Refiner& refiner) {
   const Connectivity& mesh = refiner.connectivity();
   const Wedges& wedges = refiner.wedges();

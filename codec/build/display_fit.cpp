@@ -10,9 +10,9 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kFaces = 1000;
-// Share of the fitted strength that is used. The fit considers only the centroids of faces, but the
-// corners lie farther out. The full strength would therefore be too much. In measurements, this
-// share gave about the smallest rms error.
+// Share of the fitted strength that is used. The fit considers only the centroids of faces. Corners
+// move farther than centroids, so the full strength would be too much. In measurements, this share
+// gave about the smallest rms error.
 constexpr double kShare = 0.8;
 
 // Fits the factor `a` in offset = a * shift by least squares. `offset` is the signed distance from

@@ -13,21 +13,24 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr std::uint64_t kPixelsPerFace = 16;  // see codec/simplify/TEXTURES.md, section 7
+// least size of a picture in pixels per face; see codec/simplify/TEXTURES.md, section 7
+constexpr std::uint64_t kPixelsPerFace = 16;
 constexpr int kJpegQuality = 92;
 
 std::uint64_t pixels_of(const PictureInfo& picture) {
   return std::uint64_t{picture.side} * picture.side;
 }
 
-// Whether picture `a` is a better choice than `b` if at least `pixels` pixels are needed.
+// Whether picture `a` is a better choice than `b` for a use that needs `pixels` pixels. Prefers the
+// smallest picture that has enough pixels, or else the largest picture.
 bool is_better(const PictureInfo& a, const PictureInfo& b, std::uint64_t pixels) {
   const bool a_suffices = pixels_of(a) >= pixels, b_suffices = pixels_of(b) >= pixels;
   if (a_suffices != b_suffices) return a_suffices;
   return a_suffices ? a.side < b.side : a.side > b.side;
 }
 
-// Whether picture `a` is a better choice than `b` if the side should be at most `most` pixels.
+// Whether picture `a` is a better choice than `b` for a use that allows at most `most` pixels per
+// side. Prefers the largest picture that is allowed, or else the smallest picture.
 bool is_closer(const PictureInfo& a, const PictureInfo& b, std::uint32_t most) {
   const bool a_fits = a.side <= most, b_fits = b.side <= most;
   if (a_fits != b_fits) return a_fits;

@@ -20,21 +20,22 @@ namespace vitrine::inline codec {
 // stay valid until the next call.
 using PictureReader = std::function<Expected<std::span<const std::uint8_t>>(std::size_t i)>;
 
-using PictureRoles = std::bitset<kPictureRoles>;  // by the number of the role
+using PictureRoles = std::bitset<kPictureRoles>;  // bit i stands for PictureRole i
 
 // Returns the numbers of the pictures to export, one for each role of `roles` that the texture has.
-// `most_side` is the largest side in pixels: chooses the largest picture that is not larger, or the
-// smallest picture if all are larger; 0 chooses none. Without `most_side`, chooses the size that
-// fits a mesh of `faces` faces: the smallest picture with at least 16 pixels per face, or the
-// largest picture at full resolution. Empty if the model has no such picture.
+// If `most_side` is set, chooses the largest picture with at most that many pixels per side, or the
+// smallest picture if all are larger; a `most_side` of 0 chooses no picture. If `most_side` is not
+// set, chooses the smallest picture with at least 16 pixels per face of a mesh with `faces` faces,
+// or the largest picture at full resolution. Returns an empty list if the model has no such
+// picture.
 std::vector<std::size_t> pictures_to_export(const Manifest& manifest, std::uint64_t faces,
                                             std::optional<std::uint32_t> most_side,
                                             PictureRoles roles = PictureRoles().set());
 
-// Returns the texturing of the mesh refiner.display_mesh(), with these pictures. Converts pictures
-// to JPEG, or to PNG for base colours of a surface that is not opaque. Returns an empty Texturing
-// if `numbers` is empty. Fails with the error of `read`, or (kBadInput) if a picture cannot be
-// decoded. libwebp decodes the pictures and is not safe on hostile bytes.
+// Returns the texturing of the mesh refiner.display_mesh(), with the pictures `numbers`. Converts
+// pictures to JPEG, or to PNG for base colours of a surface that is not opaque. Returns an empty
+// Texturing if `numbers` is empty. Fails with the error of `read`, or (kBadInput) if a picture
+// cannot be decoded. libwebp decodes the pictures and is not safe on hostile bytes.
 Expected<Texturing> texturing_to_export(const Refiner& refiner,
                                         std::span<const std::size_t> numbers,
                                         const PictureReader& read);

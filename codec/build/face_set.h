@@ -40,7 +40,8 @@ using TexturedFaceKey = std::array<TexturedCorner, 3>;
 // `refiner` has no texture coordinates.
 std::vector<TexturedFaceKey> textured_face_set(const Refiner& refiner);
 
-// A face's corner with the bits of its texture coordinates in the source, all sets.
+// A face's corner with the exact bits of its texture coordinates in the source, for all sets of
+// coordinates.
 struct SourceCorner {
   Vec3i position;
   std::array<std::uint32_t, 2 * kCoordinateSets> texture{};

@@ -12,8 +12,8 @@ namespace vitrine::inline codec {
 namespace {
 
 // Raises the chunk's error bound to cover faces between the chunk's region and a neighbour region
-// that is one level finer. Corners of such a face in the coarser region still lack the low bits of
-// their positions. These bits arrive with the coarser region's next chunk.
+// that is one level finer. The coarser region's corners of such a face still lack the low bits of
+// their positions, which arrive with that region's next chunk.
 void allow_for_finer_neighbours(ChunkInfo& chunk, const Manifest& manifest) {
   const std::uint32_t finer = chunk.level + 1;
   if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
@@ -82,7 +82,7 @@ void LevelErrors::finish(Manifest& manifest) {
 }
 
 // Returns an estimate of the memory for measuring a level with `faces` faces, in units of the
-// memory for one face. A part of it does not depend on the level.
+// memory for one face. The second term is the memory that every level needs, whatever its size.
 std::size_t LevelErrors::weight_of(std::size_t faces) const {
   return faces + meter_.original().size() / 8;
 }

@@ -18,7 +18,7 @@ struct EncodedModel {
   Manifest manifest;
   // The file after its header: base mesh, then chunks in level order.
   std::vector<std::uint8_t> body;
-  BaseMesh base;                   // as a decoder reconstructs it
+  BaseMesh base;                   // the base mesh as a decoder reconstructs it
   std::vector<VertexId> fine_ids;  // per vertex at full resolution: its id in the hierarchy
 };
 

@@ -19,7 +19,7 @@ Expected<Refiner> open_model(std::span<const std::uint8_t> pmesh);
 ChunkReader chunks_of(const Manifest& manifest, std::span<const std::uint8_t> pmesh);
 
 // Returns the bytes of the i-th picture of the texture, after checking their SHA-256. Fails
-// (kBadInput) if the file ends before it or the bytes are damaged.
+// (kBadInput) if the file ends before the picture does, or if the bytes are damaged.
 Expected<std::span<const std::uint8_t>> picture_of(const Manifest& manifest,
                                                    std::span<const std::uint8_t> pmesh,
                                                    std::size_t i);

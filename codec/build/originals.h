@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The originals of a texture: materials, texture coordinates and pictures of the source, to the
-// bit. They are optional blocks at the end of a file (codec/FORMAT.md section 8.6), which no viewer
-// needs.
+// The originals of a texture: exact copies of the source's materials, texture coordinates and
+// pictures. They are optional blocks at the end of a file (codec/FORMAT.md section 8.6). Viewers do
+// not need them.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace vitrine::inline codec {
 
-// Adds the originals to the end of a file. `faces` are the faces at full resolution in the order of
-// a refiner to which all chunks were applied in file order, with `vertices` vertices in any
-// numbering; `texturing` belongs to them. Leaves the file unchanged if the source has too many
-// pictures (kMaxOptionalBlocks); returns whether it was added. `body` is the file behind its
-// header.
+// Adds the originals to the end of a file. `faces` are the faces at full resolution, in the order
+// of a refiner to which all chunks were applied in file order. They have `vertices` vertices,
+// numbered in any order. `texturing` belongs to `faces`. `body` is the file after its header.
+// Returns false and leaves the file unchanged if the source has too many pictures
+// (kMaxOptionalBlocks).
 bool add_originals(std::span<const Triangle> faces, std::uint32_t vertices,
                    const Texturing& texturing, Manifest& manifest, std::vector<std::uint8_t>& body);
 
-// Whether the file has the originals of its texture.
+// Whether the file contains the originals of its texture.
 bool has_originals(const Manifest& manifest);
 
 // Returns the size in bytes of the originals.
@@ -31,12 +31,12 @@ std::uint64_t originals_bytes(const Manifest& manifest);
 
 // Returns the originals for the faces of refiner.lattice_mesh(). All chunks of the model must have
 // been applied in file order. Fails (kState) if the file has no originals or the refiner is not at
-// full resolution, and (kBadInput) if `pmesh` ends before them or they are damaged. Safe on hostile
-// bytes. The pictures are not decoded.
+// full resolution, and (kBadInput) if the originals in `pmesh` are damaged or cut off. Safe on
+// hostile bytes. The pictures are not decoded.
 Expected<Texturing> originals_of(const Refiner& refiner, std::span<const std::uint8_t> pmesh);
 
-// Whether both texturings have the same materials, pictures and names, to the bit. Does not compare
-// faces; source_face_set() does.
+// Whether both texturings have identical materials, pictures and picture names. Does not compare
+// faces; source_face_set() serves that purpose.
 bool have_same_materials(const Texturing& a, const Texturing& b);
 
 }  // namespace vitrine::inline codec

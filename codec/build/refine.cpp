@@ -33,7 +33,8 @@ ShownDetail shown_detail(const Refiner& refiner) {
   for (std::size_t i = 0; i < manifest.chunks.size(); ++i) {
     if (!refiner.is_applied(i)) level = std::min(level, manifest.chunks[i].level - 1);
   }
-  // Part of the last chunk may be undone.
+  // Some splits of the last chunk may have been undone. A level without all its faces is
+  // incomplete.
   while (level > 0 && manifest.levels[level].faces > refiner.face_count())
     --level;
   const bool is_whole = manifest.levels[level].faces == refiner.face_count();

@@ -23,8 +23,9 @@ Expected<void> refine(Refiner& refiner, const Want& want, const ChunkReader& rea
 struct ShownDetail {
   std::uint32_t level = 0;  // the finest complete level
   double error = 0;         // upper bound of the error of that level, in model units
-  // The middles of the cells of the finest level that is shown in part, in model units: origin +
-  // step * integer. Without display filter, vertices lie there.
+  // The lattice on which vertices lie if the display filter is off, in model units: the points
+  // grid_origin + grid_step * integer. They are the middles of the cells of the finest level that
+  // is shown at least in part.
   Vec3 grid_origin;
   double grid_step = 1;
 };

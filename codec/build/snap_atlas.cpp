@@ -10,11 +10,12 @@ namespace {
 
 // An edge of mean length has at least this many steps of the lattice.
 constexpr double kStepsPerEdge = 32;
-constexpr std::int32_t kLargestStep = 1024;  // a quarter of the least distance between charts
-// Least accepted ratio of a face's areas before and after rounding, the smaller to the larger.
+// Largest step in coordinate units: a quarter of the least distance between charts.
+constexpr std::int32_t kLargestStep = 1024;
+// Smallest accepted ratio of the smaller to the larger of a face's areas before and after rounding.
 constexpr double kGood = 0.5;
 constexpr int kMendingSweeps = 8;
-constexpr std::int32_t kReach = 2;  // how far mending moves a wedge along each axis, in steps
+constexpr std::int32_t kReach = 2;  // how far mend() moves a wedge along each axis, in steps
 
 double mean_edge(std::span<const Triangle> faces, std::span<const Vec2> at) {
   double sum = 0;
@@ -25,7 +26,7 @@ double mean_edge(std::span<const Triangle> faces, std::span<const Vec2> at) {
   return faces.empty() ? 0 : sum / static_cast<double>(3 * faces.size());
 }
 
-// Rounding to one lattice.
+// Rounds coordinates to the lattice of one step.
 class Snapping {
  public:
   Snapping(std::span<const Triangle> faces, std::span<const Vec2> exact, std::int32_t step)
@@ -38,8 +39,9 @@ class Snapping {
     }
   }
 
-  // Moves wedges until each face has kept its area up to kGood. Returns whether that worked. On a
-  // coarser lattice without this bound, the charts of one scan filled almost none of their square.
+  // Moves wedges until every face has a quality() of at least kGood. Returns false if that fails. A
+  // coarser lattice without this bound made the charts of one scan fill almost none of their
+  // square.
   bool mend() {
     for (int sweep = 0; sweep < kMendingSweeps; ++sweep) {
       bool is_good = true;
@@ -61,9 +63,9 @@ class Snapping {
             static_cast<std::int32_t>(std::lround(p.y / step_)) * step_};
   }
 
-  // Returns the ratio of a face's areas before and after rounding, the smaller to the larger. The
-  // result is not positive if rounding has turned the face over. Returns 1 for faces that were
-  // turned over before.
+  // Returns the ratio of the smaller to the larger of a face's areas before and after rounding. The
+  // result is not positive if rounding has flipped the face. Returns 1 for a face that was flipped
+  // before rounding.
   double quality(std::size_t f) const {
     const auto& [a, b, c] = faces_[f];
     const double before = cross(exact_[b] - exact_[a], exact_[c] - exact_[a]);
@@ -78,7 +80,8 @@ class Snapping {
     return least;
   }
 
-  // Moves a wedge to the point nearby that is best for its faces.
+  // Moves a wedge to the nearby lattice point at which the worst of its faces has the best
+  // quality().
   void improve(std::uint32_t w) {
     const Vec2i middle = rounded(exact_[w]);
     Vec2i best = at_[w];

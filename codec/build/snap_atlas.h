@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rounds the texture coordinates of a base mesh to a coarse lattice, on which they cost few bytes.
+// Rounds the texture coordinates of a base mesh to a coarse lattice, so that they take few bytes.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,11 @@ struct SnappedCoordinates {
   std::int32_t step = 1;  // a power of two
 };
 
-// Rounds `at`, the coordinates of each wedge, in units of which a picture has at most
-// kMaxAtlasSide. `faces` holds the wedges of each face. The step is at most 1/32 of the mean edge
-// in the picture, at most 1024, and so small that rounding neither halves nor doubles the area of a
-// face. A wedge may move to a point up to two steps from the nearest one, if that saves its faces.
+// Rounds `at`, the coordinates of each wedge, to a lattice. A picture has at most kMaxAtlasSide
+// units per side. `faces` holds the wedges of each face. The lattice's step is at most 1/32 of the
+// mean edge length in the picture and at most 1024 units. It is also so small that rounding neither
+// halves nor doubles the area of any face. A wedge may move up to two steps away from its nearest
+// lattice point if that keeps the areas of its faces.
 SnappedCoordinates snap_coordinates(std::span<const Triangle> faces, std::span<const Vec2> at);
 
 }  // namespace vitrine::inline codec

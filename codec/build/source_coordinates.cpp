@@ -20,12 +20,14 @@ bool are_same_bits(const TextureCoordinates& a, const TextureCoordinates& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-// Maps the bits of floats to integers in the same order. The map is its own inverse.
+// Maps the bits of a float to an integer such that integers compare as the floats do. The map is
+// its own inverse.
 std::uint32_t in_order(std::uint32_t bits) {
   return (bits & 0x8000'0000u) != 0 ? bits ^ 0x7FFF'FFFFu : bits;
 }
 
-// Codes a float, given an expected one: the difference of their integers in order.
+// Codes a float, given a prediction: codes the difference of the integers that in_order() returns
+// for both.
 class FloatModel {
  public:
   template <class Coder>
@@ -39,7 +41,7 @@ class FloatModel {
   }
 
  private:
-  // Codes the number of significant bits, then the bits behind the first one.
+  // Codes the number of significant bits, then the bits after the most significant one.
   template <class Coder>
   std::uint32_t code_number(Coder& coder, std::uint32_t number) {
     const auto told = static_cast<std::uint32_t>(std::bit_width(number));
@@ -57,7 +59,7 @@ class FloatModel {
   std::array<AdaptiveBit, 1u << kWidthBits> width_;
 };
 
-// Codes the coordinates of one set.
+// Models for one set of texture coordinates.
 struct SetModel {
   template <class Coder>
   TextureCoordinates code(Coder& coder, const TextureCoordinates& expected,
@@ -67,7 +69,7 @@ struct SetModel {
     return {u, model[1].code(coder, expected[1], truth[1])};
   }
 
-  std::array<AdaptiveBit, 3> is_same;  // by the candidate
+  std::array<AdaptiveBit, 3> is_same;  // one bit model for each of the three candidates
   std::array<std::array<FloatModel, 2>, 2> at;
   TextureCoordinates last{};
 };
@@ -77,8 +79,8 @@ float as_float(double x) {
   return static_cast<float>(std::clamp(x, -kMost, kMost));
 }
 
-// Encodes or decodes the faces: both run this pass over the same mesh. An encoder finds the truth
-// in `texturing`; a decoder writes it there.
+// Encodes or decodes the texture coordinates of all faces. Encoder and decoder run the same pass
+// over the same mesh. An encoder reads the values from `texturing`; a decoder stores them there.
 template <class Coder>
 class SourcePass {
  public:
@@ -95,7 +97,7 @@ class SourcePass {
     }
   }
 
-  // Returns false if a value is impossible.
+  // Returns false if a decoded value is out of range.
   bool run() {
     for (Corner c = 0; c < corners_; c += 3) {
       if (!is_queued_[c / 3] && !code_from(c)) return false;
@@ -104,7 +106,8 @@ class SourcePass {
   }
 
  private:
-  // Codes the face of corner c and then, breadth first, all faces that edges connect with it.
+  // Codes the face of corner c and then, in breadth-first order, all faces connected with it across
+  // edges.
   bool code_from(Corner c) {
     queue_ = {c};
     is_queued_[c / 3] = true;
@@ -156,8 +159,9 @@ class SourcePass {
     return std::isfinite(value[0]) && std::isfinite(value[1]);
   }
 
-  // Codes which of the coordinates that are known at the vertex of c its coordinates equal. The
-  // candidates are those of the faces across the two edges at c, and the last ones coded there.
+  // Codes whether the corner c has the same coordinates as one of three candidates, and which. The
+  // candidates are already coded corners at the same vertex: those in the faces across the two
+  // edges at c, and the corner coded last at this vertex.
   std::optional<TextureCoordinates> code_candidate(std::size_t set, Corner c) {
     const std::array<Corner, 3> candidates = {at_vertex(next(c), true), at_vertex(prev(c), false),
                                               last_at_[set][mesh_.vertex(c)]};
@@ -185,8 +189,8 @@ class SourcePass {
     return is_next ? next(across) : prev(across);
   }
 
-  // Returns the fourth corner of a parallelogram of the face of `tip` and the face across the edge
-  // opposite to it.
+  // Returns the coordinates of the fourth corner of a parallelogram. Its other three corners are
+  // those of the face of `tip`; the fourth is mirrored across the edge opposite to `tip`.
   TextureCoordinates across(std::size_t set, Corner tip) {
     const TextureCoordinates &a = at(set, next(tip)), &b = at(set, prev(tip)),
                              &opposite = at(set, mesh_.opposite(tip));
@@ -203,16 +207,19 @@ class SourcePass {
   }
 
   const Connectivity& mesh_;
-  const Corner corners_;  // corners of the surface; those of closing faces follow them
+  // Number of corners of real faces. The faces that close boundary loops have the corners after
+  // these.
+  const Corner corners_;
   Texturing& texturing_;
   Coder& coder_;
-  std::vector<bool> is_queued_, is_coded_;  // per face
-  std::vector<Corner> queue_;               // of code_from()
-  // Per set and vertex: the corner coded last. Empty if the set is not coded.
+  std::vector<bool> is_queued_, is_coded_;  // one flag per face
+  std::vector<Corner> queue_;               // faces still to be coded by code_from()
+  // Per set of coordinates and vertex: the corner coded last. The vector of a set that is not coded
+  // is empty.
   std::array<std::vector<Corner>, kCoordinateSets> last_at_;
   std::array<SetModel, kCoordinateSets> models_;
   AdaptiveBit is_same_material_;
-  std::uint16_t material_ = 0;  // of the face coded last
+  std::uint16_t material_ = 0;  // material of the face coded last
 };
 
 }  // namespace

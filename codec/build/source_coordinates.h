@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the materials and texture coordinates of a source's faces to the bit (codec/FORMAT.md
-// section 8.6). Neighbouring faces mostly agree at their common vertices, so a corner takes far
-// less than a bit where it does. Elsewhere, the coordinates are predicted.
+// Codes the materials and texture coordinates of a source's faces without loss (codec/FORMAT.md
+// section 8.6). Neighbouring faces mostly have equal coordinates at their common vertices, and such
+// a corner takes far less than one bit. Other coordinates are predicted.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@
 
 namespace vitrine::inline codec {
 
-// `mesh` is the closed mesh of `faces` faces, and `texturing` has one material per face. Sets of
-// coordinates are empty or have one entry per face.
+// `mesh` is a mesh of `faces` faces whose boundary loops are closed. `texturing` has one material
+// per face. Each set of coordinates is empty or has one entry per face.
 std::vector<std::uint8_t> encode_source_coordinates(const Connectivity& mesh, std::uint32_t faces,
                                                     Texturing texturing);
 
-// Sets `texturing.face_materials`, and the coordinates of each set that `has_set` names. Fails
+// Sets `texturing.face_materials` and those sets of coordinates that `has_set` selects. Fails
 // (kBadInput) if a material is out of range of `texturing.materials`, or if a coordinate is not
 // finite. Safe on hostile bytes: allocates memory for the faces only.
 Expected<void> decode_source_coordinates(std::span<const std::uint8_t> bytes,

@@ -14,15 +14,15 @@ constexpr std::size_t kMostMaterials = 65'536;
 constexpr std::size_t kMaterialBytes = 1 + 12 * 8 + 3;  // minimum size of a material
 constexpr std::uint8_t kDoubleSidedBit = 1u << 0, kUnlitBit = 1u << 1;
 constexpr std::uint8_t kNearestBit = 1u << 0;
-constexpr int kWrapU = 1, kWrapV = 3;  // first bits of two
+constexpr int kWrapU = 1, kWrapV = 3;  // lowest bit of each two-bit wrap mode
 
 Unexpected bad() {
   return fail(ErrorCode::kBadInput,
               "the materials of the originals are damaged; fetch the file again");
 }
 
-// Calls visit(number) for each number of a material, in the order of the format. `Any` is Material
-// or const Material.
+// Calls visit(number) for each number of a material, in the order of the file format. `Any` is
+// Material or const Material.
 template <class Any, class Visit>
 void for_each_number(Any& m, Visit visit) {
   for (auto& part : m.base_colour)

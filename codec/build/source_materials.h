@@ -12,8 +12,8 @@ namespace vitrine::inline codec {
 // Names longer than 1,000 bytes are cut off.
 void write_source_materials(ByteWriter& out, const Texturing& texturing);
 
-// Returns a texturing with materials, and with pictures that have names and no bytes. Fails
-// (kBadInput) if a value is impossible, or if a map uses a picture or a set of coordinates that
+// Returns a texturing that has the materials and, for each picture, its name but no bytes. Fails
+// (kBadInput) if a value is out of range, or if a map uses a picture or a set of coordinates that
 // does not exist. Safe on hostile bytes.
 Expected<Texturing> read_source_materials(ByteReader& in);
 

@@ -12,7 +12,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// A face's vertices, rotated so that the smallest comes first, and the face's index.
+// A face's vertices, rotated so that the smallest index comes first, and the face's index.
 struct FaceName {
   Triangle vertices;
   std::uint32_t face;
@@ -35,13 +35,14 @@ std::vector<FaceName> names_of(const std::vector<Triangle>& faces) {
   return names;
 }
 
-// The face of another mesh that has the same vertices. Its corner (`turns` + k) % 3 is corner k.
+// A face of the second mesh that has the same vertices as a face of the first mesh. Corner k of the
+// first mesh's face is corner (`turns` + k) % 3 of this face.
 struct SameFace {
   std::uint32_t face, turns;
 };
 
-// Returns for each face of `atlas` the same face of `mesh`. Both have the same faces, but in
-// different orders.
+// Returns, for each face of `atlas`, the face of `mesh` with the same vertices. Both have the same
+// faces, but in different orders.
 std::vector<SameFace> same_faces(const TriangleMesh& mesh, const PlacedAtlas& atlas) {
   const auto from = names_of(atlas.faces), to = names_of(mesh.faces);
   std::vector<SameFace> out(from.size());
@@ -50,7 +51,7 @@ std::vector<SameFace> same_faces(const TriangleMesh& mesh, const PlacedAtlas& at
   return out;
 }
 
-// Returns the coordinates of `atlas` for the faces of the mesh.
+// Returns the coordinates in `atlas` for each face of the mesh, in the mesh's order.
 std::vector<DisplayFace> display_faces(const PlacedAtlas& atlas, std::span<const SameFace> same) {
   std::vector<DisplayFace> out(same.size());
   for (std::size_t f = 0; f < same.size(); ++f) {
@@ -62,7 +63,7 @@ std::vector<DisplayFace> display_faces(const PlacedAtlas& atlas, std::span<const
   return out;
 }
 
-// Returns the texturing of the mesh for the faces of the atlas.
+// Returns `texturing` with its faces in the order of the atlas.
 Texturing in_atlas_order(const Texturing& texturing, std::span<const SameFace> same) {
   Texturing out{.materials = texturing.materials,
                 .pictures = texturing.pictures,
@@ -95,7 +96,8 @@ TextureInfo info_of(const BakedTexture& baked, std::uint32_t side,
                              .length = picture.bytes.size(),
                              .sha256 = sha256(picture.bytes)});
   }
-  // The head holds only the coarsest picture of colours.
+  // The head of the file, which viewers fetch first, holds only the coarsest picture of base
+  // colours.
   info.in_head = info.pictures.empty() ? 0 : 1;
   return info;
 }

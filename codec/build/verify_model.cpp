@@ -204,9 +204,9 @@ FinalFaces final_faces(const Refiner& refiner) {
   return {face_set(refiner.lattice_mesh()), textured_face_set(refiner)};
 }
 
-// Refines the model in several random orders and by level. Each order must end with the faces
-// `expected`. Returns the number of orders checked. A model with one region has only the order by
-// level.
+// Refines the model in several random orders and once level by level. Each order must end with the
+// faces `expected`. Returns the number of orders checked. A model with one region has only the
+// order by level.
 Expected<std::uint32_t> check_orders(ByteSpan pmesh, const Manifest& manifest,
                                      const FinalFaces& expected, const ProgressReport& progress) {
   if (manifest.tree.leaves() == 1) return 1;

@@ -18,7 +18,7 @@ set(library_nlohmann-json FIND nlohmann_json LINK nlohmann_json::nlohmann_json)
 set(library_pugixml FIND pugixml LINK pugixml::pugixml)
 set(library_threads FIND Threads LINK Threads::Threads)
 set(library_tl-expected FIND tl-expected LINK tl::expected)
-# These have no CMake package on Debian.
+# These libraries have no CMake package on Debian.
 set(library_Aravis MODULE aravis-0.8)
 set(library_libsystemd MODULE libsystemd)
 set(library_libusb MODULE libusb-1.0)
@@ -28,7 +28,7 @@ set(library_WebP FILE webp)
 set(library_seccomp FILE seccomp)
 set(library_OpenCV OPENCV core imgproc calib3d aruco)
 
-# vitrine_find_library(Draco out): finds the library and sets `out` to the targets to link.
+# vitrine_find_library(Draco out): finds the library Draco and sets `out` to the targets to link.
 function(vitrine_find_library name out)
   if(NOT DEFINED library_${name})
     message(FATAL_ERROR "codec/ARCHITECTURE.md names the library ${name}, which codec/cmake/libraries.cmake does not know")
@@ -41,7 +41,7 @@ function(vitrine_find_library name out)
     find_package(PkgConfig REQUIRED)
     pkg_check_modules(${name} REQUIRED QUIET IMPORTED_TARGET GLOBAL ${by_MODULE})
     set(targets PkgConfig::${name})
-    # Drops -pthread: it would set a macro that the tests' precompiled header lacks, and glibc no
+    # Drops -pthread. It would define a macro that the tests' precompiled header lacks, and glibc no
     # longer needs it.
     set_property(TARGET ${targets} PROPERTY INTERFACE_COMPILE_OPTIONS "")
   elseif(by_FILE)

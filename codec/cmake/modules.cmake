@@ -23,8 +23,8 @@ endif()
 add_library(vitrine_flags INTERFACE)
 # -ffp-contract=off: a fused multiply-add would make the decoder differ between machines.
 # -fno-tree-slp-vectorize: g++ 12.2 drops the rounding of paired double -> float -> double
-# conversions when it vectorises straight-line code.
-# -fno-math-errno: a square root is one instruction, without a branch to a call.
+# conversions when it vectorises straight-line code. -fno-math-errno: lets the compiler emit a
+# square root as one instruction, without a call that sets errno.
 target_compile_options(vitrine_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                                -Wno-sign-conversion -Wno-missing-field-initializers -Werror -ffp-contract=off
                                                -fno-math-errno -fno-tree-slp-vectorize)
@@ -33,13 +33,13 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
 endif()
 target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr>)
 
-# Modules and programs that are shipped stop at a fault of memory instead of continuing with damaged
-# data: on a write past an array on the stack, a copy past a buffer or an index past a container.
-# Their addresses are random, and their tables of addresses are read-only. Modules that build and
+# Shipped modules and programs abort on a memory fault instead of continuing with damaged data: on a
+# write past an array on the stack, a copy past a buffer or an index past the end of a container.
+# They load at random addresses, and their relocation tables are read-only. Modules that build and
 # refine meshes do not check indices, which would make decoding over 10 % slower; their tests and
 # fuzzers run with sanitizers.
-# Tests are compiled without optimisation, which _FORTIFY_SOURCE needs, and sanitizers have checks of
-# their own.
+# Tests are compiled without optimisation, which _FORTIFY_SOURCE needs, and sanitizers have checks
+# of their own. Both therefore get none of these options.
 add_library(vitrine_hardened INTERFACE)
 add_library(vitrine_hardened_with_indices INTERFACE)
 target_link_libraries(vitrine_hardened_with_indices INTERFACE vitrine_hardened)
@@ -58,13 +58,13 @@ function(vitrine_unity target)
   endif()
 endfunction()
 
-# vitrine_rows(codec rows): the rows of the table whose modules lie below that folder.
+# vitrine_rows(codec out): sets `out` to the table rows of the modules below the folder `codec`.
 function(vitrine_rows top out)
   file(STRINGS ${VITRINE_ARCHITECTURE} rows REGEX "^\\| `${top}/")
   set(${out} "${rows}" PARENT_SCOPE)
 endfunction()
 
-# vitrine_libraries_of(codec libraries): the libraries that any module below that folder uses.
+# vitrine_libraries_of(codec out): sets `out` to the libraries that the modules below `codec` use.
 function(vitrine_libraries_of top out)
   vitrine_rows(${top} rows)
   foreach(row IN LISTS rows)
@@ -108,8 +108,8 @@ function(vitrine_module folder)
       target_link_libraries(${target} PRIVATE vitrine_flags vitrine_hardened_with_indices)
     endif()
     vitrine_unity(${target})
-    # Compiles the server's modules without optimisation: they wait more than they compute, and a
-    # sanitised build spends most of its time compiling.
+    # Compiles the server's modules without optimisation: they spend more time waiting than
+    # computing, and a sanitised build spends most of its time compiling.
     if(folder MATCHES "^server/" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
       target_compile_options(${target} PRIVATE -O0)
     endif()

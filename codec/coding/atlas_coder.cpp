@@ -21,7 +21,7 @@ constexpr std::uint32_t kNotNumbered = 0xFFFF'FFFFu;
 constexpr int kShiftBits = 5;
 constexpr std::uint32_t kMostShift = 20;
 
-// Codes pairs of coordinates.
+// Codes pairs of texture coordinates.
 class PairModel {
  public:
   template <class Coder>
@@ -56,8 +56,8 @@ std::uint32_t common_shift(const BaseAtlas& atlas) {
   return static_cast<std::uint32_t>(std::countr_zero(bits));
 }
 
-// Encodes or decodes an atlas: both run this pass over the same faces. `truth` is the atlas to
-// encode. A decoder passes an empty atlas.
+// Encodes or decodes an atlas. Encoder and decoder run the same pass over the same faces. `truth`
+// is the atlas to encode; a decoder passes an empty one.
 template <class Coder>
 class AtlasPass {
  public:
@@ -142,7 +142,7 @@ class AtlasPass {
   }
 
   // Codes the coordinates of the face of corner c and then, breadth first, those of the faces
-  // across edges that are no seams. Returns false if one is out of bounds.
+  // across edges that are not seams. Returns false if a coordinate is out of bounds.
   bool code_from(Corner c) {
     queue_ = {c};
     for (std::size_t i = 0; i < queue_.size(); ++i) {
@@ -176,8 +176,8 @@ class AtlasPass {
 
   bool is_known(Corner c) const { return is_known_[wedge_[c]]; }
   Vec2 at(Corner c) const { return to_vec2(at_[wedge_[c]]); }
-  // Subtracts as floating point, since damaged positions may be any integers, whose difference may
-  // not fit into 32 bits.
+  // Subtracts in floating point. Damaged positions may be any integers, so their difference may not
+  // fit into 32 bits.
   Vec3 to(Corner from, Corner c) const {
     return to_vec3(positions_[mesh_.vertex(c)]) - to_vec3(positions_[mesh_.vertex(from)]);
   }
@@ -193,17 +193,19 @@ class AtlasPass {
 
   const Connectivity& mesh_;
   const std::vector<Vec3i>& positions_;
-  const Corner corners_;  // corners of the surface; those of closing faces follow them
+  // Number of corners of real faces. The faces that close boundary loops have the corners after
+  // these.
+  const Corner corners_;
   const BaseAtlas& truth_;
   Coder& coder_;
   std::vector<bool> is_seam_;         // per corner: whether the edge opposite to it is a seam
-  std::vector<std::uint32_t> wedge_;  // per corner
+  std::vector<std::uint32_t> wedge_;  // per corner: its wedge
   std::vector<Vec2i> at_;             // per wedge, in units of 2^shift
   std::vector<bool> is_known_;        // per wedge: whether it is coded already
-  std::vector<Corner> queue_;         // of code_from()
+  std::vector<Corner> queue_;         // faces still to be coded by code_from()
   std::array<AdaptiveBit, 3> seam_;
-  std::array<PairModel, 3> model_;  // by the number of the face's other corners that are known
-  Vec2i last_;                      // the first coordinates of the chart before
+  std::array<PairModel, 3> model_;  // indexed by how many of the face's other two corners are known
+  Vec2i last_;                      // the first coordinates of the previous chart
   std::uint32_t shift_ = 0;         // all coordinates are multiples of 2^shift
 };
 

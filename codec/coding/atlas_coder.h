@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the texture coordinates of a base mesh: which edges are seams, then the coordinates of each
-// wedge, as if triangles had the same shape in the picture as in space (codec/FORMAT.md section
-// 8.2). Coordinates on a coarse lattice cost fewer bytes.
+// Codes the texture coordinates of a base mesh (codec/FORMAT.md section 8.2). Codes which edges are
+// seams, then the coordinates of each wedge. A coordinate is predicted as if triangles had the same
+// shape in the picture as in space. Coordinates on a coarse lattice take fewer bytes.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace vitrine::inline codec {
 // `base` must have an atlas whose coordinates are between 0 and kMaxAtlasSide.
 std::vector<std::uint8_t> encode_atlas(const BaseMesh& base);
 
-// Returns the atlas of `base`, whose faces must be those of the mesh that was encoded, in the same
+// Returns the atlas of `base`. The faces of `base` must be those of the encoded mesh, in the same
 // order. Wedges are numbered in the order of their first corners. Fails (kBadInput) if the faces
 // are not a manifold or a coordinate is out of bounds. Safe on hostile bytes.
 Expected<BaseAtlas> decode_atlas(std::span<const std::uint8_t> bytes, const BaseMesh& base);

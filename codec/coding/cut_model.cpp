@@ -10,8 +10,8 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr double kNegligible = 1e-3;  // learn() skips candidates with a lower probability
-constexpr double kNoScore = -1e300;   // of a candidate that does not exist
-// The highest scores of two candidates, if both exist and if only the first exists.
+constexpr double kNoScore = -1e300;   // score of a candidate that does not exist
+// Upper limits of the scores of a pair of candidates: if both exist, and if only the first exists.
 constexpr std::array<Double2, 2> kHighest = {Double2{1e300, 1e300}, Double2{1e300, kNoScore}};
 
 // The values of each ring vertex, as one array per value. The values of two consecutive vertices
@@ -35,7 +35,8 @@ struct RingArrays {
   static constexpr std::size_t kSize = kMaxSplitValence + 1;
   std::array<double, kSize> x, y, z, length, valence, is_virtual;
   std::array<double, kSize> real, square;  // 1 and the squared length; 0 if the vertex is virtual
-  std::array<double, kSize> valences;      // per number of faces of the new vertex: feature 0
+  // The value of feature 0 for each number of faces of the new vertex.
+  std::array<double, kSize> valences;
 };
 
 // Prefix sums over the ring. Virtual vertices do not count. The positions are integers, so all sums
@@ -136,9 +137,10 @@ std::array<Double2, CutModel::kFeatures> features_of(const RingArrays& ring, con
   const TwoVec3 chord = r - l, centre = (l + r) * both(0.5);
   const Double2 edge = length(d), chord_length = length(chord);
   const Double2 reach = load2(&ring.length[j]);
-  // Both ends of the cut are in both arcs.
+  // Counts the ends of the cut twice, because both ends are in both arcs.
   const Double2 real = sums.total_count + ring.real[i] + load2(&ring.real[j]);
-  // Sum of the squared lengths of the edges from the two vertices, at +d/2 and -d/2, to their arcs.
+  // Sum of the squared lengths of the edges from the two vertices, which lie at +d/2 and -d/2, to
+  // the ring vertices of their arcs.
   const Double2 squares =
       (sums.squares + ring.square[i] + load2(&ring.square[j])) * inverse * inverse +
       dot(d, near.sum - far.sum) * inverse + real * 0.25 * dot(d, d);

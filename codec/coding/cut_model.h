@@ -94,7 +94,7 @@ class CutModel {
     }
   }
 
-  // Returns the first of the candidates with the highest probability.
+  // Returns the candidate with the highest probability, or the first of several such candidates.
   std::uint32_t likeliest() const {
     Double2 p = both(0), best = both(0), place = {0, 1};
     for (std::uint32_t k = 0; k < slots_; k += 2, place += 2) {
@@ -109,7 +109,7 @@ class CutModel {
   std::array<double, kFeatures> weights_;
   std::uint32_t learned_ = 0;
   std::uint32_t count_ = 0;  // number of candidates
-  std::uint32_t slots_ = 0;  // the same, with those that do not exist
+  std::uint32_t slots_ = 0;  // number of candidate slots, including slots without a candidate
   std::array<TwoFeatures, kMaxTwos> features_;
   std::array<RingCut, 2 * kMaxTwos> cuts_;
   // Per candidate: its probability. Becomes negative once the candidate's flag is coded.

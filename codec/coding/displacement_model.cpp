@@ -118,7 +118,7 @@ std::array<double, 6> DisplacementModel::covariance(const SplitSurroundings& s,
 void DisplacementModel::learn_gaussian(const SplitSurroundings& s, const ErrorGaussian& gaussian,
                                        const Vec3& error) {
   const double inverse = 1 / (s.scale * s.scale);
-  std::array<double, 3> surprise;  // per axis: observed / expected variance, minus 1
+  std::array<double, 3> surprise;  // per axis: observed divided by expected variance, minus 1
   for (std::size_t k = 0; k < 3; ++k) {
     const double e = dot(error, gaussian.frame[k]);
     surprise[k] = std::min(e * e * inverse / gaussian.variance[k], 8.0) - 1;
@@ -140,7 +140,7 @@ void DisplacementModel::learn_weights(const SplitSurroundings& s, const FeatureC
   const double inverse = 1 / (s.scale * s.scale);
   const double d_normal = dot(d, s.normal);
   const FeatureColumns& f = columns;
-  // A template parameter lets the compiler unroll the inner loop.
+  // The index `a` is a template parameter, which lets the compiler unroll the inner loop.
   const auto add_row = [&]<std::size_t a>(std::integral_constant<std::size_t, a>) {
     const double along_normal = f.normal[a] * d_normal;
     part.right_side[a] += Double2{dot(s.features[a], d) - along_normal, along_normal} * inverse;
@@ -182,7 +182,8 @@ void DisplacementModel::Regression::solve() {
     Double2 sum = y[i];
     for (std::size_t k = i + 1; k < kFeatures; ++k)
       sum -= l[k][i] * Double2{tangential[k], normal[k]};
-    // Weights are this large only if hostile splits make the matrix singular.
+    // A weight exceeds 1,000 only if hostile splits make the matrix singular. Such a weight counts
+    // as 0.
     const Double2 weight = sum / l[i][i];
     const Double2 safe = abs(weight) < both(1e3) ? weight : both(0);
     tangential[i] = safe[0], normal[i] = safe[1];

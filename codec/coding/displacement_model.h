@@ -46,7 +46,8 @@ struct SplitSurroundings {
     kSlant,     // cosine of the angle between the chord and the difference of the arcs' means
     kNeighbourError,
     kNeighbourNormalError,
-    kNeighboursFromLaplacian,  // this clue and the next two: distance between two predictions of D
+    // this clue and the next two are distances between two predictions of D
+    kNeighboursFromLaplacian,
     kArcsFromLaplacian,
     kParallelogramsFromLaplacian,
     kClues
@@ -90,7 +91,7 @@ class DisplacementModel {
   struct Evidence {
     std::array<double, 3> factor{};  // factors for the variances along the three axes
     double bias = 0;  // part of the mean error along the prediction, in units of scale
-    double seen = 0;  // number of splits learned from, plus the start weight
+    double seen = 0;  // number of splits learned from, plus kPriorWeight
   };
 
   const Weights& tangential_weights(std::size_t kind) const { return kinds_[kind].tangential; }
@@ -142,9 +143,9 @@ class DisplacementModel {
 
   static constexpr double kGrain = 0.12;  // variance from rounding to the lattice, plus a margin
 
-  // Recursive least squares for the tangential and the normal part of D. The inputs are the
-  // corresponding parts of the features. Each pair of numbers belongs to the tangential and to the
-  // normal part. Only matrix[a][b] with b <= a is used.
+  // Recursive least squares for two parts of D: the tangential and the normal part. The inputs are
+  // the same parts of the features. Each pair of numbers holds one number for the tangential part
+  // and one for the normal part. Only matrix[a][b] with b <= a is used.
   struct Regression {
     Weights tangential{}, normal{};
     std::array<std::array<Double2, kRow>, kFeatures> matrix{};

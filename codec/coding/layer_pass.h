@@ -38,10 +38,11 @@ namespace vitrine::inline codec {
 
 // A split recorded by the encoder. Vertex ids are those of the mesh state.
 struct SplitTruth {
-  // The new vertex takes the faces from q_i around to q_j. Either may be virtual.
+  // The new vertex takes the faces from q_i around to q_j. One of q_i and q_j may be virtual.
   VertexId qi = 0, qj = 0;
-  Vec3i d;                       // cell of v minus cell of the new vertex
-  AttributeTuple attribute_d{};  // the same difference for each attribute of the mesh
+  Vec3i d;  // cell of v minus cell of the new vertex
+  // value at v minus value at the new vertex, for each attribute of the mesh
+  AttributeTuple attribute_d{};
 
   // Negates the differences, because v and the new vertex have swapped roles.
   void negate() {
@@ -90,8 +91,8 @@ class LayerPass {
  private:
   Unexpected damaged(const char* what) const { return damaged_chunk(frame_, what); }
 
-  // Codes the low bits of the positions if the level's lattice is finer. All bit values have equal
-  // probability, because a cell is about as large as the level's error.
+  // Codes the low bits of the positions if the level's lattice is finer than the previous level's.
+  // All bit values have equal probability, because a cell is about as large as the level's error.
   void refine_lattice() {
     mesh_.shift = frame_.shift, mesh_.foreign_shift = frame_.shift_before;
     const auto bits = static_cast<int>(frame_.shift_before - frame_.shift);
@@ -208,7 +209,7 @@ class LayerPass {
     }
   }
 
-  // Returns whether a ring vertex from number `from` counter-clockwise to number `to` belongs to
+  // Returns whether any ring vertex from index `from` counter-clockwise to index `to` belongs to
   // another region.
   bool touches_others(const OneRing& ring, std::uint32_t from, std::uint32_t to) const {
     for (std::uint32_t k = from;; k = k + 1 == ring.size ? 0 : k + 1) {
@@ -218,7 +219,7 @@ class LayerPass {
     }
   }
 
-  // Moves the two vertices to their estimated positions, which they keep until pass 2.
+  // Moves v and w to their estimated positions. They stay there until pass 2.
   void estimate(VertexId v, VertexId w, const Vec3i& merged, const Vec3& d) {
     const Vec3i half = {exact::round(d.x * 0.5), exact::round(d.y * 0.5), exact::round(d.z * 0.5)};
     mesh_.positions[v] = merged + half;

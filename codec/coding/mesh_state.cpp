@@ -63,7 +63,9 @@ void MeshState::remove(const InsertedComponent& newest) {
 void MeshState::fetch_rings(std::span<const VertexId>, std::size_t) const {}
 #else
 void MeshState::fetch_rings(std::span<const VertexId> order, std::size_t k) const {
-  constexpr std::size_t kRings = 8, kSteps = 6;  // few rings have more than kSteps vertices
+  // Number of rings handled at a time, and number of neighbours handled per ring. Few rings have
+  // more neighbours.
+  constexpr std::size_t kRings = 8, kSteps = 6;
   if (k % kRings != 0) return;
   const auto soon = order.subspan(std::min(k + kRings, order.size()));
   std::array<Corner, kRings> corner;

@@ -60,7 +60,7 @@ class ResidualCoder {
   }
 
   template <class Coder>
-  // `magnitude` is at least 1
+  // `magnitude` must be at least 1.
   std::uint32_t code_magnitude(Coder& coder, std::uint32_t magnitude, int w) {
     const int wanted = Coder::kEncodes ? std::bit_width(magnitude) - 1 : 0;
     int exponent = 0;

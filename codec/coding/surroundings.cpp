@@ -52,7 +52,7 @@ struct Spokes {
   Vec3 at(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
 };
 
-// `centre` is the record of the vertex at which the half ring is.
+// `centre` is the record of the vertex whose neighbours form the half ring.
 Spokes spokes_of(const MeshState& mesh, const HalfRing& half, const VertexRecord& centre,
                  const Vec3i& origin) {
   Spokes spokes;
@@ -62,7 +62,7 @@ Spokes spokes_of(const MeshState& mesh, const HalfRing& half, const VertexRecord
     if (is_virtual(q)) continue;
     const VertexRecord& record = mesh.vertex[q];
     spokes.is_own[k] = record.region == centre.region;
-    // Only this chunk splits vertices of its region in its level, which is that of `centre`.
+    // A neighbour in the same region whose last split was in this level was split by this chunk.
     const bool split = spokes.is_own[k] & (record.split_level == centre.split_level);
     spokes.split[k] = record.split_of | (kNoSplit * static_cast<std::uint32_t>(!split));
     const Vec3 p = to_vec3(mesh.seen_from(centre.region, q) - origin);
@@ -111,7 +111,7 @@ void add_parallelogram(const MeshState& mesh, const HalfRing& half, const Spokes
 
 HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, const Spokes& spokes,
                            std::uint16_t region, const Vec3i& origin) {
-  // Separate variables stay in registers, and need no clearing of a whole HalfFeatures.
+  // Uses separate variables: they stay in registers, and no whole HalfFeatures has to be cleared.
   Mean all, inner, parallelogram, tip;
   Vec3 shoulders;
   double distance = 0;
@@ -227,7 +227,7 @@ FlagFeatures flag_features(const MeshState& mesh, VertexId v, const OneRing& rin
   if (f.is_border) return f;
   f.valence = static_cast<int>(ring.size);
   const Vec3i centre = mesh.positions[v];
-  // A sum of integers below 2^53 is exact, so it does not depend on the first ring vertex.
+  // Any order of summation gives the same result, because sums of integers below 2^53 are exact.
   double sum = 0;
   int real = 0;
   for (std::uint32_t k = 0; k < ring.size; ++k) {
@@ -307,8 +307,8 @@ struct SplitRings {
 };
 
 // Averages D over the neighbours that split in this level. A D whose dot product with `arcs` is
-// negative is first negated. Whether a neighbour counts, and the sign of its D, are as good as
-// random, so this function avoids branches on them.
+// negative is first negated. Branches on whether a neighbour counts or on the sign of its D would
+// often be mispredicted, so this function avoids them.
 NeighbourSplits neighbour_splits(std::span<const PlacedSplit> placed, const SplitRings& rings,
                                  const Vec3& arcs) {
   NeighbourSplits out;

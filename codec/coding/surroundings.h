@@ -21,7 +21,7 @@ struct Split {
   Vec3i merged;  // position of v before the split (v~)
 };
 
-// The splits of one chunk, in coded order.
+// The splits of one chunk, in the order in which they are coded.
 struct ChunkSplits {
   VertexId first_vertex = 0;  // the new vertex of the first split
   std::uint32_t first_face = 0;
@@ -60,11 +60,11 @@ RingGeometry ring_geometry(const MeshState& mesh, VertexId v, const OneRing& rin
 // A split whose two vertices have their final positions.
 struct PlacedSplit {
   Vec3 d;            // final position of v minus that of the new vertex, in lattice units
-  SplitError error;  // of the prediction of d
+  SplitError error;  // error of the prediction of `d`
 };
 
-// Returns the surroundings of the next split, number placed.size(), in the mesh after pass 1
-// (layer_pass.h). `placed` holds all earlier splits.
+// Returns the surroundings of the next split, whose index is placed.size(), in the mesh after pass
+// 1 (layer_pass.h). `placed` holds all earlier splits.
 SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& chunk,
                                      std::span<const PlacedSplit> placed);
 

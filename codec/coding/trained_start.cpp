@@ -39,7 +39,8 @@ std::uint16_t twelve_bits(double probability) {
 
 Probabilities all_probabilities() {
   Probabilities all{};
-  constexpr double kStep = 0.8824969025845955;  // equals exp(-1 / 8)
+  // ratio of the odds of successive table entries: exp(-1 / 8)
+  constexpr double kStep = 0.8824969025845955;
   double odds = 1;
   for (std::size_t step = 0; step < kHalf; ++step, odds *= kStep) {
     all[kHalf + step] = twelve_bits(1 / (1 + odds));

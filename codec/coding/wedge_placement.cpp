@@ -12,11 +12,12 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr int kSweeps = 3;           // rounds of relaxation
-constexpr double kGoodShape = 1e-3;  // least accepted area of a triangle, per longest edge squared
+constexpr int kSweeps = 3;  // rounds of relaxation
+// smallest accepted area of a triangle, divided by the square of its longest edge
+constexpr double kGoodShape = 1e-3;
 
-// The coordinates of a wedge before a split, and its parts at the two vertices.
-// A part is kNoWedge if the vertex has none.
+// The coordinates of a wedge before a split, and the two wedges that it becomes: one at v, one at
+// w. Each is kNoWedge if that vertex has no part of the wedge.
 struct Parted {
   WedgeId at_v = kNoWedge, at_w = kNoWedge;
   Vec2i before;
@@ -26,16 +27,16 @@ Vec2i rounded(const Vec2& p) {
   return {exact::round(p.x), exact::round(p.y)};
 }
 
-// A corner at a vertex that is split or moves: the wedges of all corners of its
-// face, itself first. All are kNoWedge if the face closes a boundary loop.
+// A corner at a vertex that is split or moved, and the wedges of the three corners of its face,
+// starting with this corner. All wedges are kNoWedge if the face closes a boundary loop.
 struct Spoke {
   Corner corner;
   WedgeId wedge, next, prev;
   bool is_real() const { return wedge != kNoWedge; }
 };
 
-// Appends the corners at v in ring order, counter-clockwise. The `prev` vertex
-// of each is the `next` vertex of the one after it.
+// Appends the corners at v in ring order, counter-clockwise. The `prev` vertex of each corner is
+// the `next` vertex of the following corner.
 void append_spokes(const MeshState& mesh, VertexId v, std::vector<Spoke>& spokes) {
   const Corner first = mesh.connectivity.corner_at(v);
   Corner c = first;
@@ -57,8 +58,8 @@ class LinearMap {
     u_ += d * e.x, v_ += d * e.y;
   }
 
-  // Solves for the map. The term on the diagonal keeps directions across the
-  // surface from mattering.
+  // Solves for the map. The term added to the diagonal keeps the map small along the surface
+  // normal, where points near the vertex hardly determine it.
   void solve() {
     const double term = 0.003 * (xx_ + yy_ + zz_) + 1e-9;
     xx_ += term, yy_ += term, zz_ += term;
@@ -95,9 +96,9 @@ class SplitPlacement {
   }
 
  private:
-  static constexpr std::size_t kSpokes = 32;  // usual most, of both vertices
+  static constexpr std::size_t kSpokes = 32;  // usual maximum for both vertices together
 
-  // Returns the wedges that the split has parted or passed to w.
+  // Returns the wedges that the split has divided or passed on to w.
   std::vector<Parted> parted_wedges() const {
     std::vector<Parted> out;
     for (std::size_t i = 0; i < spokes_.size(); ++i) {
@@ -134,7 +135,7 @@ class SplitPlacement {
 
   bool is_new(Corner c) const { return c / 3 + 2 >= mesh_.connectivity.face_count(); }
 
-  // Calls visit(spoke) for each corner of both parts.
+  // Calls visit(spoke) for each corner at a wedge of v and w that is being placed.
   template <class Visit>
   void for_each_spoke(Visit visit) const {
     for (const Spoke& spoke : spokes_) {
@@ -156,12 +157,11 @@ class SplitPlacement {
   }
 
   Vec3i position(Corner c) const { return mesh_.seen_from(region_, mesh_.connectivity.vertex(c)); }
-  // Returns the coordinates of a wedge, less those of the wedge before the
-  // split.
+  // Returns the coordinates of a wedge relative to those of the divided wedge before the split.
   Vec2i uv(WedgeId wedge) const { return mesh_.wedges[wedge].at - parts_.before; }
 
-  // Returns the least shape of the triangles at both parts: area per longest
-  // edge squared.
+  // Returns the least shape of the triangles at both wedges. The shape is the area divided by the
+  // square of the longest edge.
   double shape() const {
     double least = 1;
     for_each_spoke([&](const Spoke& spoke) {
@@ -179,8 +179,8 @@ class SplitPlacement {
     if (parts_.at_w != kNoWedge) mesh_.wedges.move(parts_.at_w, at_w);
   }
 
-  // Tries to move the parts by `to_v` and `to_w`. Returns whether all shapes
-  // are good.
+  // Tries to move the two wedges by `to_v` and `to_w`. Returns whether all triangles then have good
+  // shapes.
   bool attempt(const Vec2& to_v, const Vec2& to_w) {
     const Vec2i at_v = parts_.before + rounded(to_v), at_w = parts_.before + rounded(to_w);
     set(at_v, at_w);
@@ -199,7 +199,7 @@ class SplitPlacement {
     return false;
   }
 
-  // Tries sixteen directions at three distances.
+  // Tries sixteen directions, each at three distances.
   bool along_directions() {
     constexpr double kHalf = 0.9238795325112867, kDiagonal = 0.7071067811865476,
                      kSmall = 0.3826834323650898;
@@ -220,8 +220,8 @@ class SplitPlacement {
   VertexId v_, w_;
   Vec3i merged_;
   std::uint16_t region_;
-  std::vector<Spoke> spokes_;   // at v, then at w
-  std::size_t first_of_w_ = 0;  // of them
+  std::vector<Spoke> spokes_;   // corners at v, then corners at w
+  std::size_t first_of_w_ = 0;  // index in spokes_ of the first corner at w
   Parted parts_;
   LinearMap map_;
   double area_ = 0;  // twice the area, in the picture, of the triangles before the split
@@ -229,8 +229,8 @@ class SplitPlacement {
   Vec2i best_v_, best_w_;
 };
 
-// Improves the wedges of a chunk's splits, block after block. The triangles of a block are
-// collected once for all sweeps. A block is small, so that they stay in the processor's cache.
+// Improves the wedges of a chunk's splits in blocks. The triangles of a block are collected once
+// for all sweeps. Blocks are small, so that their triangles stay in the processor's cache.
 class Relaxation {
  public:
   Relaxation(MeshState& mesh, const ChunkSplits& chunk) : mesh_(mesh), chunk_(chunk) {}
@@ -246,9 +246,9 @@ class Relaxation {
   }
 
  private:
-  static constexpr std::size_t kBlock = 256;  // splits
+  static constexpr std::size_t kBlock = 256;  // number of splits per block
 
-  // A triangle at a wedge: its other corners, and its shape in space.
+  // A triangle at a wedge: the wedges of its other two corners, and its shape in space.
   struct StarTriangle {
     WedgeId next, prev;
     TriangleShape shape;
@@ -278,7 +278,7 @@ class Relaxation {
     }
   }
 
-  // Finds the edges from v to its ring in space. Those to virtual vertices are not used.
+  // Finds the edges from v to its ring in space. Skips edges to virtual vertices.
   void find_edges(VertexId v) {
     edges_.clear();
     const Vec3i centre = mesh_.positions[v];
@@ -321,11 +321,11 @@ class Relaxation {
 
   MeshState& mesh_;
   const ChunkSplits& chunk_;
-  std::vector<Spoke> spokes_;             // of the vertex whose stars are collected
+  std::vector<Spoke> spokes_;             // spokes of the vertex whose stars are being collected
   std::vector<Vec3> edges_;               // per spoke: the edge to its next vertex, in space
-  std::vector<Star> stars_;               // of the block, in the order in which they are improved
-  std::vector<StarTriangle> triangles_;   // of all stars
-  std::vector<EnergyTriangle> energies_;  // of the star that is improved
+  std::vector<Star> stars_;               // stars of the block, in the order of improvement
+  std::vector<StarTriangle> triangles_;   // triangles of all stars
+  std::vector<EnergyTriangle> energies_;  // energies of the star that is being improved
 };
 
 }  // namespace

@@ -4,9 +4,9 @@
 //
 // Right after a split, place_wedges() moves the coordinates of its two vertices apart, so that
 // every triangle in the picture keeps its orientation. Once all splits of the chunk have their
-// exact positions, relax_wedges() improves the shapes. Both depend only on vertices of the chunk's
-// region and on vertices that do not split in the same level, so the result does not depend on the
-// order in which regions are refined.
+// exact positions, relax_wedges() improves the shapes. Both functions depend only on vertices of
+// the chunk's region and on vertices that do not split in the same level, so the result does not
+// depend on the order in which regions are refined.
 #pragma once
 
 #include "codec/coding/mesh_state.h"

@@ -77,8 +77,8 @@ Wedges::Choice Wedges::default_choice(const Sides& first, const Sides& second) {
   return {side(first), side(second), is_open(first) || is_open(second)};
 }
 
-// Tries all sides that the two new faces can join. Returns the choice with the shortest seams. If
-// seams are equally long, prefers the sides of v.
+// Tries all combinations of sides that the two new faces can join. Returns the combination with the
+// shortest seams. If two are equal, prefers the sides of v.
 Wedges::Choice Wedges::shortest_seams(const Sides& first, const Sides& second,
                                       const SplitEdgeLengths& lengths) {
   const auto can_join = [](const Sides& sides, std::size_t side) {
@@ -129,7 +129,8 @@ void Wedges::divide(VertexId w, std::span<const Corner> ring, std::uint32_t i, s
   kept_.push_back(joined[0].centre);
   kept_.push_back(joined[1].centre);
   const WedgeId first_new = size();
-  // Returns the part of the wedge `whole` at w. It is a new wedge if v keeps a part, too.
+  // Returns the part of the wedge `whole` that belongs to w. It is a new wedge if v also keeps a
+  // part.
   const auto part_at_w = [&](WedgeId whole) {
     if (whole == kNoWedge) return kNoWedge;
     if (!holds(kept_, whole)) {

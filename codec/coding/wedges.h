@@ -20,16 +20,16 @@
 namespace vitrine::inline codec {
 
 using WedgeId = std::uint32_t;
-// The wedge of the corners of faces that close boundary loops.
+// Stands for the wedge of corners whose faces close boundary loops.
 inline constexpr WedgeId kNoWedge = 0xFFFF'FFFFu;
 
 struct Wedge {
   Vec2i at;             // integer texture coordinates; a picture is TextureInfo::side units wide
-  VertexId vertex = 0;  // the vertex of all its corners
+  VertexId vertex = 0;  // the vertex at which all corners of the wedge lie
 };
 
-// The lengths of the five edges that may be seams after a split of v into v and w, between the ring
-// vertices q_i and q_j.
+// The lengths of the five edges that may be seams after v was split into v and w. The split begins
+// at the ring vertex q_i and ends at q_j.
 struct SplitEdgeLengths {
   double v_qi = 0, w_qi = 0, v_qj = 0, w_qj = 0, v_w = 0;
 };
@@ -37,9 +37,9 @@ struct SplitEdgeLengths {
 class Wedges {
  public:
   Wedges() = default;
-  // Returns the wedges of a base mesh. `mesh` is its connectivity, whose first faces are those of
-  // the base. Fails (kBadInput) if a wedge is out of range or belongs to several vertices, or if a
-  // coordinate is out of bounds.
+  // Returns the wedges of a base mesh. `mesh` is the connectivity of the base mesh; its first faces
+  // are those of the base mesh. Fails (kBadInput) if a wedge is out of range or belongs to several
+  // vertices, or if a coordinate is out of bounds.
   static Expected<Wedges> from_base(const BaseAtlas& atlas, const Connectivity& mesh);
 
   bool empty() const { return wedge_.empty(); }
@@ -98,7 +98,7 @@ class Wedges {
   // Which side each of the two new faces joins: 0 for the face at v, 1 for the face at w.
   struct Choice {
     std::size_t first = 0, second = 0;
-    bool is_open = false;  // whether the choice depends on seam lengths
+    bool is_open = false;  // whether several choices remain, so that seam lengths must decide
   };
   struct Saved {
     WedgeId wedge;

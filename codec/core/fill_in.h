@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats error messages with little code, which keeps the WebAssembly module small.
+// Formats error messages with less code than fmt or iostreams, which keeps the WebAssembly module
+// small.
 #pragma once
 
 #include <cstdint>

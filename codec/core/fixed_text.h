@@ -29,8 +29,8 @@ consteval FixedText concatenate(const Texts&... texts) {
   return all;
 }
 
-// Joins the strings `of(row)` of all rows of a table. For example, the separators ", " and " or "
-// give "PLY, GLB or OBJ".
+// Joins the strings `of(row)` of all rows of a table. For example, the separator ", " and the last
+// separator " or " give "PLY, GLB or OBJ".
 template <class Table, class Of>
 consteval FixedText join(const Table& table, Of of, std::string_view separator,
                          std::string_view last_separator) {

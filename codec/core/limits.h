@@ -13,8 +13,8 @@ struct Limits {
   std::uint32_t levels = 64;
   std::uint32_t regions = 65'535;
   std::uint64_t header_bytes = 16u << 20;
-  std::uint64_t pixels = 1u << 28;         // of all pictures of a mesh together, after decoding
-  std::uint64_t picture_bytes = 1u << 30;  // of all pictures of a mesh together, as stored in files
+  std::uint64_t pixels = 1u << 28;         // total of all pictures of a mesh after decoding
+  std::uint64_t picture_bytes = 1u << 30;  // total size of all picture files of a mesh
 };
 
 inline constexpr int kMinBits = 10;

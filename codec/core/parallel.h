@@ -11,13 +11,13 @@
 namespace vitrine::inline codec {
 
 // Calls work(i) once for each i in [0, count), on at most `threads` (>= 1) threads, one of which is
-// the caller's. Calls start in ascending order of i. Returns after all of them. If a call throws,
-// rethrows one of the exceptions once no thread runs any more.
+// the caller's. Calls start in ascending order of i. Returns after all calls have ended. If calls
+// throw, rethrows one of the exceptions after all threads have stopped.
 //
-// The result is the same for any number of threads if no call reads what another one writes.
+// The result is the same for any number of threads if no call reads data that another call writes.
 template <class Work>
 void for_each_index(unsigned threads, std::size_t count, const Work& work) {
-  if (threads == 1 || count == 1) {  // a thread alone needs no atomic counter
+  if (threads == 1 || count == 1) {  // a single thread needs no atomic counter
     for (std::size_t i = 0; i < count; ++i)
       work(i);
     return;

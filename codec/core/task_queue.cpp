@@ -22,7 +22,7 @@ TaskQueue::TaskQueue(unsigned threads, std::size_t most_weight) : most_weight_(m
     workers_.push_back(std::async(std::launch::async, [this] { work(); }));
 }
 
-// The destructors of `workers_` wait for the threads.
+// The destructors of the futures in `workers_` wait until the threads have ended.
 TaskQueue::~TaskQueue() {
   const std::lock_guard lock(mutex_);
   waiting_.clear();
@@ -60,7 +60,7 @@ void TaskQueue::work() {
   }
 }
 
-// Runs the oldest task that waits, without the lock. Returns false if none waits.
+// Runs the oldest waiting task, with the mutex unlocked. Returns false if no task is waiting.
 bool TaskQueue::run_oldest(std::unique_lock<std::mutex>& lock) {
   if (waiting_.empty()) return false;
   Task task = std::move(waiting_.front());

@@ -22,15 +22,16 @@ class TaskQueue {
   };
 
   // Uses at most `threads` (>= 1) threads, one of which is the caller's. The weights of all tasks
-  // that wait or run add up to at most `most_weight`, unless there is only one.
+  // that wait or run add up to at most `most_weight`, unless a single task exceeds that weight.
   TaskQueue(unsigned threads, std::size_t most_weight);
   // Drops the tasks that wait.
   ~TaskQueue();
   TaskQueue(const TaskQueue&) = delete;
 
-  // Waits, and runs waiting tasks meanwhile, until a task of this weight may be added.
+  // Blocks until a task of this weight may be added. Runs waiting tasks in the meantime.
   void make_room(std::size_t weight);
-  // Adds a task. If more tasks wait than there are other threads, runs the oldest of them.
+  // Adds a task. If more tasks are waiting than there are worker threads, runs the oldest waiting
+  // task on the caller's thread.
   void add(Task task);
   // Runs the tasks that wait. Returns after all tasks have ended. If tasks have thrown, rethrows
   // the first exception.

@@ -19,7 +19,8 @@ struct Vec2 {
 constexpr double dot(const Vec2& a, const Vec2& b) {
   return a.x * b.x + a.y * b.y;
 }
-// Twice the signed area of the triangle (0, a, b). Positive if a, b turn counter-clockwise.
+// Returns twice the signed area of the triangle (0, a, b): positive if 0, a and b are in
+// counter-clockwise order.
 constexpr double cross(const Vec2& a, const Vec2& b) {
   return a.x * b.y - a.y * b.x;
 }

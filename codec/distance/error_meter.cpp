@@ -17,7 +17,8 @@ constexpr std::uint64_t kSeed = 1;
 // contain these samples are bounded first.
 constexpr std::size_t kWorst = 32;
 constexpr double kTolerance = 1.02;
-constexpr double kNegligible = 1e-6;  // relative to the diagonal of the original's bounding box
+// errors below this fraction of the original's bounding box diagonal are not refined
+constexpr double kNegligible = 1e-6;
 
 double diagonal(const TriangleBvh& bvh) {
   const TriangleBvh::Node& n = bvh.nodes()[0];
@@ -26,7 +27,7 @@ double diagonal(const TriangleBvh& bvh) {
 }
 
 struct Worst {
-  double squared, at_least;  // see ClosestTriangle
+  double squared, at_least;  // both as in ClosestTriangle
   // `triangle` contains the sample. `nearest` is the closest triangle of the other surface.
   std::uint32_t triangle, nearest;
 };

@@ -11,8 +11,8 @@ namespace {
 // A piece counts as much larger than its witness if radius^4 > kManyWitnesses * (2 * area of the
 // witness)^2. Such a piece is not cut along the witness's edges.
 constexpr double kManyWitnesses = 16;
-// The source counts as finer if it has at least kFine times as many triangles as the target. One
-// witness may then bound a whole triangle of the source.
+// The source counts as finer than the target if it has at least kFine times as many triangles.
+// Then, the distance to one witness may bound a whole triangle of the source.
 constexpr std::size_t kFine = 2;
 // Largest radius, as a share of limit(), of a piece that one exact distance can settle.
 constexpr double kOneDistance = 0.9;
@@ -115,8 +115,8 @@ double HausdorffBound::bound() const {
   return most;
 }
 
-// Compares only the corners, because the distance between corresponding points of two triangles is
-// largest at a corner.
+// Compares only the corners. The distance between corresponding points of two triangles is a convex
+// function, so it is largest at a corner.
 void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other,
                                const RegionedSurface& surface) {
   for (std::uint32_t t = 0; t < one.size(); ++t) {
@@ -190,8 +190,8 @@ void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   if (is_source_finer_ && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
   if (limit() > wide_) return cover(ConvexPiece(triangle), last_);
   if (lay_patch(all, triangle, t)) return;
-  // The walk from triangle to triangle may have ended on another sheet of the surface, so this
-  // searches for the closest triangle.
+  // The walk from triangle to triangle may have ended on another sheet of the surface. Therefore
+  // searches the whole target for the closest triangle.
   const ClosestTriangle nearest = search(centre, last_);
   know(std::sqrt(nearest.at_least));
   if (nearest.triangle != last_) {
@@ -245,8 +245,8 @@ void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   const double area = squared_area(target_->triangle(witness));
   const bool much_larger = radius * radius * radius * radius > kManyWitnesses * area;
   if (!much_larger) return cut(piece, witness, kCuts);
-  // A walk may end at a face without area, which says nothing about the size of the nearby
-  // triangles.
+  // A walk may end at a triangle without area. The size of such a triangle is no indication of the
+  // size of its neighbours.
   if (radius > limit() * kOneDistance && area > 0) return halve(piece, witness);
   examine(piece, witness);
 }
@@ -292,8 +292,9 @@ ClosestTriangle HausdorffBound::search(const Vec3& p, std::uint32_t hint) {
   return found;
 }
 
-// Counts one unit of work. Lowers the precision once much work is done, and each time sooner than
-// before. The time is therefore bounded, even if the surfaces cross or coincide.
+// Counts one unit of work. Lowers the precision once much work is done. Each later lowering takes
+// less work than the one before. The total time is therefore bounded, even if the surfaces cross or
+// coincide.
 void HausdorffBound::spend() {
   if (++spent_ <= (kWork + 4 * target_->size()) >> (2 * losses_)) return;
   negligible_ *= 2, spent_ = 0;
@@ -303,7 +304,7 @@ void HausdorffBound::spend() {
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
   spend();
   const ConvexPiece::Parts parts = piece.halves();
-  // A part is empty if the piece is so small that coordinates cannot resolve it.
+  // A cut yields an empty part if the piece is so small that doubles cannot resolve it.
   if (parts.front.empty() || parts.back.empty()) {
     const Vec3 centre = piece.centre();
     raise(std::sqrt(search(centre, start).squared) + piece.radius(centre));

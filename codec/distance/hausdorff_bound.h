@@ -31,8 +31,8 @@
 
 namespace vitrine::inline codec {
 
-// A surface whose vertices are divided into regions. A triangle belongs to the regions of all its
-// corners.
+// A surface whose vertices are divided into regions. A triangle belongs to the region of each of
+// its corners.
 struct RegionedSurface {
   const TriangleBvh& bvh;
   // Per vertex of `bvh`: its region, numbered from 0. Empty if all vertices are in region 0.
@@ -95,12 +95,12 @@ class HausdorffBound {
   static constexpr int kCuts = 16;
   // The precision is halved for the first time after kWork + 4 * (faces of the target) pieces.
   static constexpr std::size_t kWork = 65'536;
-  // A search of the target counts as more work, one piece for each kNodesPerPiece nodes, if it
-  // visits more than kUsualNodes nodes. Triangles around one vertex or edge cause such searches,
-  // because they are equally close to points beyond it.
+  // If a search of the target visits more than kUsualNodes nodes, each kNodesPerPiece nodes count
+  // as one more piece. Such searches occur near vertices and edges of the target: all triangles
+  // around them are equally close to points beyond them.
   static constexpr std::uint32_t kUsualNodes = 256, kNodesPerPiece = 64;
-  // After each halving of the precision, the number of pieces until the next one is divided by 4.
-  // After kMostLosses halvings, this number stays the same.
+  // After each halving of the precision, the number of pieces until the next halving is divided by
+  // 4. After kMostLosses halvings, this number stays the same.
   static constexpr unsigned kMostLosses = 4;
 
   // A region's bound is not refined below this share of the largest distance known in any region.
@@ -137,8 +137,8 @@ class HausdorffBound {
   std::size_t spent_ = 0;  // pieces examined or halved at the current precision
   unsigned losses_ = 0;
   const WitnessSurface* target_ = nullptr;
-  // Whether the source has at least kFine times as many triangles as the target. One witness may
-  // then bound several triangles.
+  // Whether the source has at least kFine times as many triangles as the target. Then, the distance
+  // to one witness may bound several triangles.
   bool is_source_finer_ = false;
   // kWide times the width of the target's triangles. If limit() exceeds this, exact distances are
   // used instead of patches.

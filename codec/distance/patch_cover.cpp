@@ -36,8 +36,8 @@ double plane_height(const TrianglePoints& s, const Vec3& direction, const Triang
   return most / std::abs(dot(normal, direction));
 }
 
-// Returns an error bound for twice the area of a triangle, given `slack`, the largest error bound
-// of its corners. Each side is at most 2 slack / kRounding long.
+// Returns an error bound for twice the area of a triangle. `slack` is the largest error bound of
+// its corners. Each side of the triangle is at most 2 slack / kRounding long.
 float doubtful_area(float slack) {
   return 16 / kRounding * slack * slack;
 }
@@ -58,7 +58,9 @@ struct PatchCover::Prism {
   // Twice the triangle's area in squared units of the prism, and the reciprocal of this, rounded
   // up.
   float twice_area = 0, per_area = 0;
-  Lanes x{}, y{}, z{}, offset{};  // lane 0: the plane's normal and offset; lanes 1 to 3: the walls'
+  // Lane 0 holds the normal and the offset of the triangle's plane. Lanes 1 to 3 hold those of the
+  // walls.
+  Lanes x{}, y{}, z{}, offset{};
   Lanes centre{};
 
   Prism(const TrianglePoints& t, double most)
@@ -80,8 +82,8 @@ struct PatchCover::Prism {
     set(2, cross(normal, bc));
     set(3, cross(normal, ca));
     offset[2] = -twice_area;  // unlike walls 1 and 3, wall 2 does not contain corner a
-    // A point inside the triangle. The middle is avoided, because refined meshes have vertices
-    // there.
+    // The centre: a point inside the triangle. It is not the centroid, because refined meshes often
+    // have vertices at centroids.
     centre = Lanes{0, 0.31f, 0.36f, 0.33f} * twice_area;
   }
 
@@ -105,8 +107,8 @@ struct PatchCover::Prism {
     const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bits);
     const std::uint64_t both = halves[0] | halves[1];
     const unsigned far = reach <= kFarthest ? 0 : kFar;
-    // The sum of the negative barycentric coordinates bounds the distance of the point from the
-    // triangle, in units of the longest edge.
+    // In units of the longest edge, the sum of the absolute values of the point's negative
+    // barycentric coordinates bounds its distance from the triangle.
     const float out = per_area *
                       (outside(at[1], slack) + outside(at[2], slack) + outside(at[3], slack)),
                 high = std::abs(at[0]) + slack;

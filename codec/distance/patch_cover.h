@@ -27,10 +27,10 @@ struct Overlaps {
   // Per triangle of the surface: the mark of the last cover() call that found the whole triangle
   // within `limit` of the covered triangle; 0 if there was no such call.
   std::vector<std::uint16_t> mark;
-  // Per triangle: number of the last cover() call whose patch included it, counted from 1; 0 if
-  // none.
+  // Per triangle: number, counted from 1, of the last cover() call whose patch included the
+  // triangle; 0 if there was no such call.
   std::vector<std::uint32_t> met;
-  std::vector<std::uint32_t> calls;  // per call: covered triangle, or kNone if the call failed
+  std::vector<std::uint32_t> calls;  // per call: covered triangle, or kNone if cover() failed
 
   // Returns a covered triangle near triangle t, or nullopt if none is known.
   std::optional<std::uint32_t> near(std::uint32_t t) const {

@@ -79,7 +79,7 @@ RigidMotion then(const RigidMotion& first, const RigidMotion& second) {
 RigidMotion fit_motion(std::span<const Vec3> from, std::span<const Vec3> to) {
   if (from.empty()) return {};
   const Vec3 a = mean(from), b = mean(to);
-  std::array<Vec3, 3> m{};  // sum of from * to^T over all points, row by row
+  std::array<Vec3, 3> m{};  // sum over all points of the outer product from * to^T, row by row
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Vec3 p = from[i] - a, q = to[i] - b;
     m[0] += q * p.x, m[1] += q * p.y, m[2] += q * p.z;

@@ -17,11 +17,11 @@ struct MeasureOptions {
 };
 
 struct OneWayDistance {
-  double rms = 0, p95 = 0, max = 0;  // model units
+  double rms = 0, p95 = 0, max = 0;  // distances in model units
 };
 
 struct SurfaceDistance {
-  double rms = 0, max = 0;  // the larger of both directions, model units
+  double rms = 0, max = 0;  // the larger value of both directions, in model units
   // rms and max as percentages of the diagonal of B's bounding box. 0 if the box is a point.
   double rms_percent = 0, max_percent = 0;
   OneWayDistance a_to_b, b_to_a;

@@ -41,7 +41,7 @@ std::vector<SurfaceSample> sample_surface(const TriangleBvh& surface, std::size_
     total += area(surface.triangle(t));
   SplitMix64 random(seed);
   std::uint32_t i = 0;
-  double up_to = area(surface.triangle(0));  // area of triangles 0 to i
+  double up_to = area(surface.triangle(0));  // total area of triangles 0 to i
   for (std::size_t k = 0; k < count; ++k) {
     const double at =
         total * ((static_cast<double>(k) + random.unit()) / static_cast<double>(count));

@@ -10,8 +10,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr int kMaxSteps = 64;        // maximum number of steps in a walk
-constexpr double kPrecision = 0.02;  // of searches in slender surfaces
+constexpr int kMaxSteps = 64;  // maximum number of steps in a walk
+// relative error of distances allowed in searches of slender surfaces
+constexpr double kPrecision = 0.02;
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
 // A triangle is thin if the squared ratio of its width to its length is at most kThin.
 constexpr double kThin = 1e-12;
@@ -119,7 +120,7 @@ std::uint32_t WitnessSurface::stroll(const Vec3& p, std::uint32_t start) const {
     const SeenAlongNormal seen(triangle(at));
     const std::array<double, 3> depth = seen.depth(p);
     std::uint32_t next = at;
-    double most = 0, of = 1;  // largest squared distance beyond an edge, as the fraction most / of
+    double most = 0, of = 1;  // the largest squared distance beyond an edge is most / of
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (!(depth[k] < 0)) continue;
       const double size = seen.squared_length(k);

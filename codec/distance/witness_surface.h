@@ -28,7 +28,7 @@ class WitnessSurface {
   // Returns the triangle across an edge of t, or t itself if the edge is a border edge. Edge k runs
   // from corner k to the next corner.
   std::uint32_t across(std::uint32_t t, std::uint32_t edge) const { return across_[t][edge] / 3; }
-  // Returns the index of the same edge in the triangle across it.
+  // Returns the index, 0 to 2, that this edge has in the triangle across it.
   std::uint32_t edge_across(std::uint32_t t, std::uint32_t edge) const {
     return across_[t][edge] % 3;
   }
@@ -54,16 +54,16 @@ class WitnessSurface {
   // Walks from `start` to a triangle that is closer to p than its neighbours are, and returns it.
   std::uint32_t walk(const Vec3& p, std::uint32_t start) const;
   // Returns the triangle of the whole surface that is closest to p. A triangle `hint` near p makes
-  // the search faster. If the surface is slender (triangle_bvh.h), another triangle may be closer,
-  // by a factor of at most 1.02: all triangles around one edge are equally close to points beyond
-  // it.
+  // the search faster. If the surface is slender (triangle_bvh.h), the result may be up to 1.02
+  // times as far away as the closest triangle. This saves the comparison of all triangles around
+  // one vertex or edge, which are equally close to points beyond it.
   ClosestTriangle closest(const Vec3& p, std::uint32_t hint) const;
 
  private:
   const TriangleBvh* bvh_;
   std::vector<std::array<std::uint32_t, 3>> own_across_;
-  // Per triangle and edge: the opposite half-edge (face_neighbours.h). The data is own_across_ or
-  // that of `shape`.
+  // Per triangle and edge: the opposite half-edge (face_neighbours.h). Refers to own_across_, or to
+  // the data of `shape`.
   std::span<const std::array<std::uint32_t, 3>> across_;
 };
 

@@ -12,8 +12,8 @@
 
 namespace vitrine::inline codec {
 
-// Whether files have a normal per vertex; STL and DRC files never do. Without normals, most
-// programs show facets.
+// Whether files have a normal per vertex. STL and DRC files never do. Most programs show a mesh
+// without normals as flat facets.
 enum class Normals { kSmooth, kNone };
 
 // The statements of a file about its content. Texts may have any bytes: writers replace control
@@ -37,17 +37,17 @@ struct ExportGrid {
 
 struct ExportOptions {
   std::string_view unit = {};  // unit of the positions; empty if it is unknown
-  // The unit in the file: one of kLengthUnits. Empty: `unit`, or the metre if the format requires
-  // it. Has no effect if `unit` is not one of kLengthUnits.
+  // The unit of the positions in the file: one of kLengthUnits. If empty, this is `unit`, or the
+  // metre if the format requires metres. Has no effect unless `unit` is one of kLengthUnits.
   std::string_view unit_in_file = {};
-  // The axis that points up in the file. The mesh has y up. nullopt: the mesh is written as it is,
-  // and the file does not state an axis.
+  // The axis that points up in the file. The mesh itself has y up. nullopt: writes the mesh as it
+  // is and states no axis.
   std::optional<UpAxis> up = {};
   Normals normals = Normals::kSmooth;
   FileDescription about = {};
-  // For GLB files only. Compressed files round positions to `grid`, normals to about a degree and
-  // texture coordinates to 16 bits. Without a grid, meshopt keeps positions exactly, and Draco has
-  // 24 bits per coordinate of the bounding box.
+  // For GLB files only. Compression rounds positions to `grid`, normals to about one degree and
+  // texture coordinates to 16 bits. Without a grid, meshopt keeps positions exactly, and Draco
+  // rounds them to 24 bits per coordinate of the bounding box.
   Compression compression = Compression::kNone;
   std::optional<ExportGrid> grid = {};
 };

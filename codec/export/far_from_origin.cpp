@@ -9,8 +9,8 @@ namespace vitrine::inline codec {
 namespace {
 
 // A mesh counts as far from the origin if a coordinate exceeds this many times the longest side of
-// its bounding box. Single precision rounds a coordinate by at most 2^-24 of its value. For all
-// other meshes, the error is therefore at most 2^-20 of the longest side.
+// its bounding box. Single precision rounds a coordinate by at most 2^-24 of its value. For meshes
+// that are not far from the origin, the error is therefore at most 2^-20 of the longest side.
 constexpr double kFarthest = 16;
 
 double farthest(const Bounds& bounds) {

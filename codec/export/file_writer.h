@@ -47,7 +47,7 @@ class FileWriter {
     number(static_cast<Real>(v.z));
   }
 
-  // Writes a unit vector with four decimals, which is an angle within 0.01 degrees.
+  // Writes a unit vector with four decimals, so that its direction is off by at most 0.01 degrees.
   void unit_vector(const Vec3& v) {
     const auto rounded = [](double part) { return std::round(part * 1e4) / 1e4 + 0.0; };
     numbers<double>({rounded(v.x), rounded(v.y), rounded(v.z)});

@@ -58,13 +58,14 @@ void put_extras(FileWriter& json, const ExportOptions& options) {
   json.text("}");
 }
 
-// Writes a text in no particular language, as XMP demands for titles and statements of rights.
+// Writes a text without a language, as the "x-default" alternative that XMP demands for titles and
+// rights.
 void put_alternative(FileWriter& json, std::string_view text) {
   json.text(R"({"@type":"rdf:Alt","rdf:_1":{"@language":"x-default","@value":)");
   json.quoted(one_line(text)), json.text("}}");
 }
 
-// Writes a packet with Dublin Core and the rights of XMP (KHR_xmp_json_ld of [glTF]).
+// Writes an XMP packet with Dublin Core metadata and rights (KHR_xmp_json_ld of [glTF]).
 void put_packet(FileWriter& json, const FileDescription& about) {
   json.text(R"({"@context":{"dc":"http://purl.org/dc/elements/1.1/",)"
             R"("rdf":"http://www.w3.org/1999/02/22-rdf-syntax-ns#",)"

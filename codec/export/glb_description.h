@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes what a glTF file says about its content.
+// Writes the description of a glTF file's content: title, creator, rights and source.
 #pragma once
 
 #include <string_view>
@@ -15,17 +15,18 @@ struct GlbExtensions {
   std::vector<std::string_view> used, required;
 };
 
-// Writes the member "asset", followed by a comma: the version, a copyright message, the statements
-// of statements_of() as extras with the names that Sketchfab uses, and, if there is a text, a
-// packet of KHR_xmp_json_ld. Writes that packet after it. `options` must be those of the file.
+// Writes the member "asset", followed by a comma. It has the version, a copyright message and, as
+// extras under the names that Sketchfab uses, the statements of statements_of(). If there is any
+// descriptive text, also writes a KHR_xmp_json_ld packet after "asset" and refers to it. `options`
+// must be those of the file.
 void put_asset(FileWriter& json, const ExportOptions& options, GlbExtensions& extensions);
 
 // Writes the members "extensionsUsed" and "extensionsRequired", each followed by a comma, if they
 // have entries.
 void put_extensions(FileWriter& json, const GlbExtensions& extensions);
 
-// Writes the member "name", preceded by a comma, if the description has a title. `part` follows the
-// title.
+// Writes the member "name", preceded by a comma, if the description has a title. The name is the
+// title followed by `part`.
 void put_name(FileWriter& json, const FileDescription& about, std::string_view part = {});
 
 }  // namespace vitrine::inline codec

@@ -10,7 +10,6 @@
 namespace vitrine::inline codec {
 namespace {
 
-// A glTF sampler.
 struct Sampler {
   bool is_nearest = false;
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
@@ -135,7 +134,8 @@ class MaterialWriter {
     json_.text(R"(,"alphaMode":"MASK","alphaCutoff":)"), json_.number(material.alpha_cutoff);
   }
 
-  // Writes the emission. glTF bounds the factor by 1, so the rest of it is a strength.
+  // Writes the emission. glTF limits the emissive factor to 1, so larger values need the extension
+  // KHR_materials_emissive_strength.
   void put_emission(const Material& material) {
     const Vec3& emission = material.emission;
     const double most = std::max({emission.x, emission.y, emission.z});
@@ -212,8 +212,8 @@ class MaterialWriter {
 
   FileWriter& json_;
   const Texturing& texturing_;
-  std::vector<PictureUse> uses_;   // sorted; the glTF textures
-  std::vector<Sampler> samplers_;  // sorted
+  std::vector<PictureUse> uses_;   // the glTF textures, sorted
+  std::vector<Sampler> samplers_;  // the glTF samplers, sorted
 };
 
 }  // namespace

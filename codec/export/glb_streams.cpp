@@ -23,7 +23,7 @@ std::uint8_t linear_in_8_bits(std::uint8_t part) {
   return static_cast<std::uint8_t>(srgb_to_linear(part / 255.0) * 255 + 0.5);
 }
 
-// Whether 8 bits of linear light restore each sRGB byte of the colours.
+// Whether 8 bits of linear light suffice to restore each sRGB byte of the colours.
 bool fit_in_8_bits(std::span<const Colour> colours) {
   std::array<bool, 256> is_used{};
   for (const Colour& colour : colours) {
@@ -139,7 +139,7 @@ void add_colours_or_coordinates(const GlbSource& source, bool may_round,
   }
 }
 
-// The coordinates of grid points, in 16 bits.
+// Returns the positions as 16-bit coordinates of the grid.
 GlbStream short_positions(const GlbSource& source, const ExportGrid& grid) {
   const auto cell = [&](double distance) {
     return static_cast<std::uint16_t>(std::clamp(std::round(distance / grid.step), 0.0, 65535.0));
@@ -154,8 +154,9 @@ GlbStream short_positions(const GlbSource& source, const ExportGrid& grid) {
   return out;
 }
 
-// Rounds floats to multiples of the largest power of two that is at most the grid's step, and
-// stores these for the filter EXPONENTIAL: a mantissa of 24 bits below an exponent of 8 bits.
+// Rounds floats to multiples of the largest power of two that is at most the grid's step. Stores
+// them in the form that the filter EXPONENTIAL decodes: 8 bits of exponent above 24 bits of
+// mantissa.
 GlbStream power_positions(const GlbSource& source, const ExportGrid& grid) {
   GlbStream out = exact_positions(source);
   const Vec3 &a = out.bounds->low, &b = out.bounds->high;
@@ -217,7 +218,7 @@ std::vector<GlbStream> packed_streams(const GlbSource& source,
 }
 
 GlbStream index_stream(const SeamVertices& vertices) {
-  // The largest 16-bit index is reserved.
+  // 65,535 is no valid 16-bit index: glTF reserves it for primitive restart.
   const bool is_short = vertices.original.size() <= 65535;
   GlbStream out = is_short
                       ? stream("", ComponentType::kUnsignedShort, 1, vertices.faces.size(),

@@ -34,7 +34,7 @@ void order_for_meshopt(SeamVertices& vertices) {
   auto next = static_cast<unsigned>(
       meshopt_optimizeVertexFetchRemap(remap.data(), indices.data(), indices.size(), count));
   for (unsigned& to : remap) {
-    if (to == ~0u) to = next++;  // a vertex without faces
+    if (to == ~0u) to = next++;  // vertices without faces come last
   }
   for (std::size_t i = 0; i < indices.size(); ++i)
     vertices.faces[i / 3][i % 3] = remap[indices[i]];

@@ -9,8 +9,8 @@ namespace vitrine::inline codec {
 // Orders faces and vertices so that they compress well. The faces must be of one material.
 void order_for_meshopt(SeamVertices& vertices);
 
-// Compress the bytes of a stream and set its mode. Attributes with the filter OCTAHEDRAL are four
-// floats before, and four bytes per element after decompression.
+// Both functions compress the bytes of a stream and set its `mode`. An attribute with the filter
+// OCTAHEDRAL must have four floats per element; it decompresses to four bytes per element.
 void compress_attribute(GlbStream& stream);
 void compress_indices(GlbStream& stream, const SeamVertices& vertices);
 

@@ -6,7 +6,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// The bits of the coordinates of a corner, all sets.
+// The bits of a corner's texture coordinates, in all sets.
 using CornerBits = std::array<std::array<std::uint32_t, 2>, kCoordinateSets>;
 
 CornerBits bits_of(const Texturing& texturing, std::size_t face, std::size_t k) {
@@ -26,7 +26,7 @@ SeamVertices split_at_seams(const TriangleMesh& mesh, const Texturing& texturing
   // The new vertices of one old vertex form a linked list. `newest` holds the head of each list,
   // and `before` links each new vertex to the previous one.
   std::vector<std::uint32_t> newest(mesh.positions.size(), kNone), before;
-  std::vector<CornerBits> bits;  // per new vertex
+  std::vector<CornerBits> bits;  // per new vertex: the bits of its coordinates
   const auto vertex_for = [&](std::uint32_t v, const CornerBits& at) {
     for (std::uint32_t known = newest[v]; known != kNone; known = before[known]) {
       if (bits[known] == at) return known;

@@ -15,12 +15,13 @@ namespace vitrine::inline codec {
 struct SeamVertices {
   std::vector<Triangle> faces;          // indices of the new vertices
   std::vector<std::uint32_t> original;  // per new vertex: its vertex in the mesh
-  // Per set: one per new vertex. Empty if the texturing does not have the set.
+  // Per set of coordinates: one pair per new vertex. Empty if the texturing does not have the set.
   std::array<std::vector<TextureCoordinates>, kCoordinateSets> coordinates;
 };
 
-// Each vertex becomes one vertex for each of its different coordinates; these differ if any bit of
-// any set differs. New vertices are in the order in which the faces use them first.
+// Returns a mesh in which each vertex is split into one vertex for each of its different texture
+// coordinates. Coordinates differ if any bit of any set differs. New vertices are in the order in
+// which the faces first use them.
 SeamVertices split_at_seams(const TriangleMesh& mesh, const Texturing& texturing);
 
 }  // namespace vitrine::inline codec

@@ -7,7 +7,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Some readers of PLY refuse lines of more than 1023 bytes.
+// Largest number of bytes of a text. Some readers of PLY refuse lines of more than 1,023 bytes.
 constexpr std::size_t kMostBytes = 400;
 
 std::size_t character_bytes(std::string_view text) {
@@ -17,7 +17,7 @@ std::size_t character_bytes(std::string_view text) {
   return bytes;
 }
 
-// Whether a character of UTF-8 is a control (C0, DEL, C1) or a separator of lines.
+// Whether a UTF-8 character is a control character (C0, DEL, C1) or a line or paragraph separator.
 bool breaks_line(std::string_view character) {
   if (character.size() == 1)
     return static_cast<unsigned char>(character[0]) < 0x20 || character[0] == 0x7F;
@@ -51,7 +51,7 @@ std::vector<Statement> statements_of(const ExportOptions& options) {
     if (std::string line = one_line(text); !line.empty()) all.push_back({name, std::move(line)});
   };
   const FileDescription& about = options.about;
-  // The unit comes first, because readers take the first one that a comment states.
+  // The unit comes first, because readers use the first unit that any comment states.
   add("unit", options.unit.empty() ? "unknown" : options.unit);
   if (options.up) add("up", name_of(*options.up));
   add("title", about.title);

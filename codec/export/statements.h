@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The statements about its content that a file makes in comments.
+// The comments in which a mesh file describes its content, such as unit, title and licence.
 #pragma once
 
 #include <span>
@@ -14,20 +14,20 @@ namespace vitrine::inline codec {
 
 struct Statement {
   std::string_view name;
-  std::string text;  // as one_line() returns it
+  std::string text;  // in the form that one_line() returns
 };
 
-// Returns the statements of a file: unit, up, title, creator, rights, licence, source, level and
-// error, each if it is known. An unknown unit is stated as "unknown". `options.unit` and
-// `options.about.error` must be those of the file.
+// Returns the statements of a file, in this order: unit, up, title, creator, rights, licence,
+// source, level and error. Omits values that are not known, but states an unknown unit as
+// "unknown". `options.unit` and the unit of `options.about.error` must be those of the file.
 std::vector<Statement> statements_of(const ExportOptions& options);
 
-// Returns the text as one line of at most 400 bytes of UTF-8, cut between characters. Control
-// characters and separators of lines become blanks. The line has no blanks at its ends, and no
-// backslash at its end, which would continue the line in an OBJ file.
+// Returns the text as one line of at most 400 bytes of UTF-8. Does not cut within a character.
+// Control characters and line separators become spaces. The line neither starts nor ends with a
+// space. It does not end with a backslash, which would continue the line in an OBJ file.
 std::string one_line(std::string_view text);
 
-// Writes a line for each statement: the prefix, the name, a blank and the text.
+// Writes one line for each statement: `prefix`, the statement's name, a space and its text.
 void put_comments(FileWriter& out, std::string_view prefix, std::span<const Statement> statements);
 
 }  // namespace vitrine::inline codec

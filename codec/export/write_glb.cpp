@@ -37,7 +37,7 @@ void put_vector(FileWriter& json, const Vec3& v) {
   json.text("["), json.numbers<double>(v, ","), json.text("]");
 }
 
-// Writes a vector with the digits of single precision.
+// Writes a vector, with as many digits as single precision needs.
 void put_floats(FileWriter& json, const Vec3& v) {
   json.text("["), json.numbers<float>(v, ","), json.text("]");
 }
@@ -108,9 +108,9 @@ class GlbFile {
   }
 
   // Chooses the point to which stored positions are relative. For exact positions, this is the
-  // origin, or the centre of the bounding box if the box is far from the origin. For rounded
-  // positions, it is the lower corner of the box, or with a grid the grid point at or below that
-  // corner. For meshopt, also sets scale_ if all grid coordinates fit into 16 bits.
+  // origin, or the centre of the bounding box if the box is far from the origin. For positions
+  // rounded without a grid, it is the lower corner of the box. With a grid, it is the grid point at
+  // or below that corner. For meshopt, also sets scale_ if all grid coordinates fit into 16 bits.
   void find_place() {
     const Bounds box = bounds_of(mesh_.positions);
     if (options_.compression == Compression::kNone || (is_meshopt() && !options_.grid)) {
@@ -280,8 +280,8 @@ class GlbFile {
   }
 
   // Writes the members of a buffer view whose block is compressed. `at` is the byte offset of the
-  // block. `decompressed_at` is the byte offset of the decompressed elements in the second buffer,
-  // for which the file has no data.
+  // block. `decompressed_at` is the byte offset of the decompressed elements in the second buffer.
+  // The file stores no data for that buffer.
   void put_compressed_view(FileWriter& out, const GlbStream& stream, std::size_t at,
                            std::size_t decompressed_at) const {
     out.text(R"("buffer":1,"byteOffset":)"), out.number(decompressed_at);

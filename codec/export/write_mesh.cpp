@@ -28,8 +28,8 @@ Expected<void> check(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   if (mesh.faces.empty())
     return fail(ErrorCode::kBadInput, "there are no faces to write; ask for a finer level");
-  // GLB and STL store sizes as 32-bit byte counts. A face takes up to 50 bytes in STL. In GLB a
-  // face takes 12 bytes and a vertex 32.
+  // GLB and STL store sizes as 32-bit byte counts. In STL, a face takes 50 bytes. In GLB, a face
+  // takes 12 bytes and a vertex up to 32.
   if (mesh.faces.size() > 80'000'000 || vertices > 100'000'000) {
     return fail(ErrorCode::kLimit, "the mesh is too large to export; ask for fewer triangles");
   }
@@ -83,7 +83,7 @@ Expected<void> check(const TriangleMesh& mesh, const Texturing& texturing, MeshF
   }
   if (bytes > 1'000'000'000)
     return fail(ErrorCode::kLimit, "the pictures are too large to export; ask for smaller ones");
-  // GLB stores 12 bytes for a face and up to three vertices of 32 bytes.
+  // GLB takes 12 bytes for a face. A face has up to three vertices of its own, of 32 bytes each.
   if (mesh.faces.size() > 30'000'000) {
     return fail(ErrorCode::kLimit,
                 "the textured mesh is too large to export; ask for fewer triangles");
@@ -103,8 +103,8 @@ Expected<void> check(MeshFormat format, const ExportOptions& options) {
                                         "another format");
 }
 
-// Returns the options of the file: the unit that its positions have, and the error in that unit.
-// Sets `factor` to the length of the positions' unit in that unit.
+// Returns the options that describe the file: its positions' unit, and the error in that unit. Sets
+// `factor`, by which the positions of the mesh must be multiplied.
 ExportOptions options_of_file(MeshFormat format, const ExportOptions& options, double& factor) {
   ExportOptions file = options;
   const auto metres = metres_per(options.unit);
@@ -128,8 +128,8 @@ void place(TriangleMesh& mesh, std::vector<Vec3>& normals, double factor, bool h
     n = turn_y_up_to_z(n);
 }
 
-// Writes a mesh that has the unit and the axes of the file. `library` is the name of the OBJ
-// material library.
+// Writes a mesh that already has the unit and the axes of the file. `library` is the name of the
+// OBJ material library.
 Expected<FileBytes> placed_file(const TriangleMesh& mesh, const Texturing& texturing,
                                 std::span<const Vec3> normals, MeshFormat format,
                                 std::string_view library, const ExportOptions& options) {

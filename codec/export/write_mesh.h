@@ -32,10 +32,11 @@ enum class MeshFormat {
 struct ExportFormat {
   MeshFormat format;
   std::string_view name, extension, media_type;
-  // The unit and the axis by the format's custom. Without a unit, files have that of the model.
+  // The unit and the up axis that are usual for the format. Without a unit, files have the unit of
+  // the model.
   std::string_view unit = {};
   UpAxis up = UpAxis::kY;
-  bool has_fixed_frame = false;  // whether the format's standard demands unit and axis
+  bool has_fixed_frame = false;  // whether the format's standard prescribes unit and up axis
 };
 
 // The table of mesh formats that can be written, in the order of MeshFormat. Lists of the formats
@@ -88,7 +89,7 @@ inline constexpr FixedText kExportChoice = join(kExportFormats, extension_of, ",
 // be in upper or lower case, with or without the dot.
 std::optional<MeshFormat> format_of_extension(std::string_view extension);
 
-// The roles of pictures that a format holds, by the number of the PictureRole. OBJ has no standard
+// The picture roles that a format can store, as one bit per PictureRole. OBJ has no standard
 // statement for PictureRole::kSurface.
 constexpr std::bitset<kPictureRoles> roles_in(MeshFormat format) {
   switch (format) {
@@ -109,10 +110,10 @@ constexpr bool has_companions(MeshFormat format) {
   return format == MeshFormat::kPly || format == MeshFormat::kObj || format == MeshFormat::kVrml;
 }
 
-// Returns the bytes of the file. PLY, OBJ, STL, GLB and VRML files state what they are
-// (statements.h); STL files as far as 80 bytes allow. If the unit is unknown, they state that, and
-// positions are not scaled. If the mesh is far from the origin, PLY, OBJ, GLB and VRML files keep
-// double precision; STL and DRC files cannot. Smooth normals are those of unit_normals()
+// Returns the bytes of the file. PLY, OBJ, STL, GLB and VRML files contain the statements of
+// statements.h; STL files have room for 80 bytes of them. If the unit is unknown, the files state
+// this, and positions are not scaled. If the mesh is far from the origin, PLY, OBJ, GLB and VRML
+// files keep double precision; STL and DRC files cannot. Smooth normals are those of unit_normals()
 // (vertex_normals.h). A compressed GLB has at most one material.
 //
 // Fails (kBadInput) if the mesh has no faces, a position does not fit a float, or the options
@@ -122,25 +123,25 @@ Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFor
                                                const ExportOptions& options = {});
 
 struct MeshFile {
-  std::string name;  // without a folder; letters, digits, '.', '-' and '_' of ASCII
+  std::string name;  // without a folder; ASCII letters, digits, '.', '-' and '_' only
   std::vector<std::uint8_t> bytes;
 };
 
-// Returns `name` with `_` for each byte that MeshFile::name cannot have. Other bytes are special in
-// some mesh files, URLs or archives.
+// Returns `name` with `_` instead of each byte that MeshFile::name does not allow. These bytes have
+// special meanings in some mesh files, URLs or archives.
 std::string plain_name(std::string_view name);
 
 // Returns the files of a mesh with a texture instead of vertex colours. The first file is the mesh,
 // STEM.EXTENSION. If the format has companions, the OBJ material library and the pictures follow.
-// All names begin with plain_name(stem); a picture adds `_` and the name that it has in
-// `texturing`.
+// All names begin with plain_name(stem); the name of a picture file continues with `_` and the
+// picture's name in `texturing`.
 //
-// `texturing` has one material, whose maps use the first set of coordinates, and pictures in JPEG
-// or PNG. For GLB, it may have any number of materials, both sets of coordinates (the first one
-// always), and pictures in WebP. The pictures have roles of roles_in(format); PLY and VRML require
-// one of base colours. If the texturing is empty, or the format holds none, returns one file as
-// write_mesh() does. Fails like write_mesh(), and (kBadInput) if the texturing does not fit the
-// mesh or the format.
+// `texturing` must have one material, whose maps use the first set of coordinates, and pictures in
+// JPEG or PNG. For GLB, it may have any number of materials, both sets of coordinates (the first
+// one always), and pictures in WebP. The pictures' roles must be in roles_in(format); PLY and VRML
+// require a picture of base colours. If the texturing is empty, or the format cannot hold a
+// texture, returns one file as write_mesh() does. Fails like write_mesh(), and (kBadInput) if the
+// texturing does not fit the mesh or the format.
 Expected<std::vector<MeshFile>> write_textured_mesh(const TriangleMesh& mesh, Texturing texturing,
                                                     MeshFormat format, std::string_view stem,
                                                     const ExportOptions& options = {});

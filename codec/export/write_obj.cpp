@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes OBJ [OBJ] and its material library, MTL. A textured mesh has texture coordinates, with v
-// upwards, instead of colours.
+// Writes OBJ [OBJ] and its material library, MTL. A textured mesh has texture coordinates instead
+// of colours; their v axis points upwards.
 #include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/seam_vertices.h"
@@ -26,7 +26,7 @@ void put_positions(const TriangleMesh& mesh, bool is_coloured, FileWriter& out) 
   }
 }
 
-// A vertex and its normal have the same number.
+// Normal i belongs to vertex i, so a face corner refers to both by the same number.
 void put_normals(std::span<const Vec3> normals, FileWriter& out) {
   for (const Vec3& normal : normals) {
     out.text("vn "), out.unit_vector(normal), out.text("\n");

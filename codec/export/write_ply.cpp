@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes binary PLY [PLY]. A texture is stored as MeshLab stores it: a comment TextureFile with the
-// name of the picture, and a list `texcoord` of each face, with v upwards.
+// Writes binary PLY [PLY]. Stores a texture as MeshLab does: a comment TextureFile names the
+// picture, and each face has a list `texcoord` of coordinates, whose v axis points upwards.
 #include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/statements.h"

@@ -13,9 +13,9 @@ namespace {
 
 using Header = std::array<char, 80>;
 
-// Returns the header: unit, axis, title and licence, as far as there is room. It must not start
-// with "solid", which marks text STL. Some programs take "COLOR=" for the start of colours, so no
-// text has an equals sign.
+// Returns the header: unit, axis, title and licence, as far as 80 bytes allow. It must not start
+// with "solid", which marks text STL. Texts contain no equals sign, because some programs take
+// "COLOR=" for the start of colours.
 Header header_of(std::span<const Statement> statements) {
   std::string text = "Vitrine";
   for (const auto& [name, value] : statements) {
@@ -26,7 +26,7 @@ Header header_of(std::span<const Statement> statements) {
   Header header{};
   std::size_t size = std::min(text.size(), header.size());
   while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80)
-    --size;  // cuts between characters of UTF-8
+    --size;  // moves back to the start of a UTF-8 character
   text.copy(header.data(), size);
   return header;
 }

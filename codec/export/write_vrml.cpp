@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes VRML 97 [VRML97]: one shape with an IndexedFaceSet, which has vertex colours, or texture
-// coordinates and an ImageTexture.
+// Writes VRML 97 [VRML97]: one shape with an IndexedFaceSet. The shape has vertex colours, or
+// texture coordinates and an ImageTexture.
 #include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/seam_vertices.h"
@@ -62,7 +62,7 @@ void put_colours(const std::vector<Colour>& colours, FileWriter& out) {
   out.text("      ]\n    }\n");
 }
 
-// Without an index of their own, normals have the order of the points.
+// The file has no list of normal indices, so VRML assigns normal i to point i.
 void put_vectors(std::span<const Vec3> normals, FileWriter& out) {
   if (normals.empty()) return;
   out.text("    normal Normal {\n      vector [\n");
@@ -71,7 +71,8 @@ void put_vectors(std::span<const Vec3> normals, FileWriter& out) {
   out.text("      ]\n    }\n");
 }
 
-// VRML counts texture coordinates from the lower left corner of the picture.
+// Writes texture coordinates with v counted upwards: in VRML, (0, 0) is the lower left corner of
+// the picture.
 void put_coordinates(const SeamVertices& split, FileWriter& out) {
   out.text("    texCoord TextureCoordinate {\n      point [\n");
   for (const auto& [u, v] : split.coordinates[0]) {

@@ -18,7 +18,7 @@ namespace vitrine::inline codec {
 
 using FileBytes = std::vector<std::uint8_t>;
 
-// Each function returns the bytes of a file. The file contains `statements` as comments (STL: in
+// Each function returns the bytes of a file. The file contains `statements` as comments (in STL, in
 // its header). `texturing` is either empty or meets the requirements of write_textured_mesh(). The
 // names of its pictures are their file names. `normals` is either empty or has one unit vector per
 // vertex of the mesh.
@@ -30,7 +30,8 @@ FileBytes write_obj(const TriangleMesh& mesh, const Texturing& texturing,
                     std::span<const Statement> statements);
 FileBytes write_obj_library(const Texturing& texturing);
 FileBytes write_stl(const TriangleMesh& mesh, std::span<const Statement> statements);
-// `options.unit` must be the unit of the file. The error and the grid must be in that unit.
+// `options.unit` must be the unit of the positions in the file, and the error and the grid in
+// `options` must be in that unit.
 Expected<FileBytes> write_glb(const TriangleMesh& mesh, const Texturing& texturing,
                               std::span<const Vec3> normals, const ExportOptions& options);
 FileBytes write_vrml(const TriangleMesh& mesh, const Texturing& texturing,

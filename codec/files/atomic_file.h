@@ -28,7 +28,8 @@ Expected<void> write_file_atomically(const std::filesystem::path& path,
 Expected<bool> create_file_atomically(const std::filesystem::path& path,
                                       std::span<const std::uint8_t> bytes);
 
-// Returns advice for a user whose file or folder cannot be written. `error` is an errno value.
+// Returns advice for a user whose file or folder cannot be written: the next step for the errno
+// value `error`.
 const char* next_step(int error);
 
 // Returns the folder of `path`, or "." if `path` is only a file name.

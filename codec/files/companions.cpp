@@ -9,8 +9,8 @@ namespace vitrine::inline codec {
 
 namespace {
 
-// Returns the number of bytes of the UTF-8 character at the start of `text`, or 0 if there is none.
-// Overlong forms count as characters.
+// Returns the length in bytes of the UTF-8 character at the start of `text`, or 0 if `text` does
+// not start with one. Accepts overlong encodings.
 std::size_t utf8_size(std::string_view text) {
   const auto first = static_cast<std::uint8_t>(text[0]);
   const std::size_t size = first < 0x80   ? 1
@@ -35,8 +35,8 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-// The characters of the windows-1252 bytes 0x80 to 0x9F. All other bytes are equal to their
-// characters' numbers. Unused bytes are replaced by the character U+FFFD.
+// The Unicode characters of the windows-1252 bytes 0x80 to 0x9F. Each other byte stands for the
+// character with the same number. Bytes without a character become U+FFFD.
 constexpr std::array<std::uint16_t, 32> kWindows1252{
     0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
     0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD, 0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022,

@@ -23,12 +23,12 @@ std::string as_utf8(std::string_view text);
 // separate parts, because mesh files contain paths from other machines.
 std::string companion_key(std::string_view path);
 
-// Decodes the percent-encoded bytes of a URI ([RFC3986] section 2.1), such as "%20" for a blank. A
-// percent sign without two hexadecimal digits after it stays as it is.
+// Decodes the percent-encoded bytes of a URI ([RFC3986] section 2.1), such as "%20" for a space.
+// Leaves a percent sign as it is if two hexadecimal digits do not follow it.
 std::string percent_decoded(std::string_view uri);
 
-// The kinds of companions, by the extensions of their names. Pictures of formats that cannot be
-// read count as well, so that a reader can name their format.
+// The kinds of companions, by the extensions of their names. kPicture includes formats that cannot
+// be read, so that a reader can name the format in a message.
 enum class CompanionKind : std::uint8_t { kOther, kLibrary, kBuffer, kPicture };
 CompanionKind companion_kind(std::string_view key);
 

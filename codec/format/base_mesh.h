@@ -24,7 +24,7 @@ struct BaseAtlas {
   bool empty() const { return wedges.empty(); }
 };
 
-// Holds only the faces of the surface, not those that close boundary loops.
+// The base mesh. `faces` holds only the faces of the surface, not those that close boundary loops.
 struct BaseMesh {
   std::vector<Vec3i> positions;
   std::vector<Triangle> faces;

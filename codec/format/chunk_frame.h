@@ -18,7 +18,7 @@ struct ChunkFrame {
   std::uint32_t level = 1;
   std::uint16_t region = 0;
   std::uint32_t splits = 0, inserted = 0;  // numbers of splits and of inserted vertices
-  // Lattice shifts of this level and of the previous one.
+  // Lattice shifts (cell.h) of this chunk's level and of the previous level.
   std::uint32_t shift = 0, shift_before = 0;
   Placement placement = Placement::kMidpoint;
   std::int32_t parity = 0;  // 0 or 1; see level_parity()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blocks of a `.pmesh` file: its base mesh, the atlas and the pictures of its texture, its
-// chunks, and its optional blocks. The header has the SHA-256 of each block, by which clients
-// request it.
+// chunks, and its optional blocks. The header states the SHA-256 of each block. Clients request
+// blocks by this hash.
 #pragma once
 
 #include "codec/format/manifest.h"
@@ -10,7 +10,7 @@ namespace vitrine::inline codec {
 
 struct FileBlock {
   Sha256 sha256{};
-  std::uint64_t offset = 0, length = 0;  // bytes; the offset is from the start of the file
+  std::uint64_t offset = 0, length = 0;  // in bytes; the offset is from the start of the file
 };
 
 // Calls visit(FileBlock) for the base mesh, the atlas, each picture and each optional block. These
@@ -35,8 +35,8 @@ void for_each_block(const Manifest& manifest, Visit visit) {
     visit(FileBlock{chunk.sha256, chunk.offset, chunk.length});
 }
 
-// Whether `head`, the first head_bytes() bytes of a file, has the SHA-256 that `manifest` states
-// for each of its blocks.
+// Whether the blocks in the head are intact: `head`, the first head_bytes() bytes of a file, has
+// for each of its blocks the SHA-256 that `manifest` states.
 bool is_intact_head(const Manifest& manifest, std::span<const std::uint8_t> head);
 
 }  // namespace vitrine::inline codec

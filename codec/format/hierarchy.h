@@ -41,7 +41,7 @@ struct Component {
 
 struct Hierarchy {
   Placement placement = Placement::kMidpoint;
-  LatticeMesh base;  // real faces only; positions are cells of level 0; no attributes
+  LatticeMesh base;  // without virtual faces; positions are cells of level 0; no attributes
   LatticeAttributes base_attributes;  // attributes of the base vertices
   std::vector<VertexId> base_ids;     // per base vertex: its id in the fine mesh
   std::uint32_t loops = 0;            // number of boundary loops of the fine mesh

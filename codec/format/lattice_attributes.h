@@ -61,7 +61,8 @@ bool has_all(const AttributeColumns<Values>& columns, const PerSemantic<Semantic
   return std::equal(columns.begin(), columns.end(), semantics.begin(), semantics.end(), fits);
 }
 
-// Appends the values of vertex `v` of `from` to `to`. Both must have the same attributes.
+// Appends the attribute values of vertex `v` from `from` to `to`. Both must have the same
+// attributes.
 template <class Values, class From>
 void append_row(AttributeColumns<Values>& to, const AttributeColumns<From>& from, std::size_t v) {
   for (std::size_t i = 0; i < to.size(); ++i)
@@ -71,7 +72,8 @@ void append_row(AttributeColumns<Values>& to, const AttributeColumns<From>& from
 // Converts attributes to integers without loss: display_attributes() restores the same values.
 LatticeAttributes lattice_attributes(const VertexAttributes& attributes);
 
-// Converts the values of vertex `v` of `from` for display and export, and appends them to `to`.
+// Converts the attribute values of vertex `v` in `from` for display and export, and appends them to
+// `to`.
 template <class Values>
 void append_displayed(VertexAttributes& to, const AttributeColumns<Values>& from, std::size_t v) {
   for (const auto& [semantic, values] : from) {

@@ -229,7 +229,8 @@ void write_texture(ByteWriter& out, const TextureInfo& texture) {
   }
 }
 
-// Sets the offsets of the atlas and of the pictures in the head. Returns the end of the head.
+// Sets the offsets of the atlas and of the pictures in the head. Returns the end of the head as an
+// offset in the file.
 std::uint64_t place_head(Manifest& m) {
   TextureInfo& texture = m.texture;
   std::uint64_t offset = m.base_offset + m.base_length;
@@ -240,8 +241,8 @@ std::uint64_t place_head(Manifest& m) {
   return offset;
 }
 
-// Sets the offsets of the pictures behind the chunks and of the optional blocks, and the size of
-// the file.
+// Sets the offsets of the pictures after the chunks and of the optional blocks, and the size of the
+// file.
 void place_tail(Manifest& m) {
   for (std::size_t i = m.texture.in_head; i < m.texture.pictures.size(); ++i) {
     PictureInfo& picture = m.texture.pictures[i];

@@ -55,11 +55,11 @@ enum class PictureRole : std::uint8_t {
   kBaseColour = 0,  // sRGB, and opacity unless the alpha mode is kOpaque
   kNormal = 1,      // normals in tangent space, as glTF has them
   kSurface = 2,     // occlusion (red), roughness (green), metallic (blue)
-  kEmission = 3,    // sRGB
+  kEmission = 3,    // emitted colours in sRGB
 };
 inline constexpr std::uint8_t kPictureRoles = 4;
 
-// Returns the name of a role in JSON and on the command line.
+// Returns the name of a role, as used in JSON and on the command line.
 constexpr std::string_view name_of(PictureRole role) {
   constexpr std::array<std::string_view, kPictureRoles> kNames = {"base_colour", "normal",
                                                                   "surface", "emission"};
@@ -91,7 +91,7 @@ struct TextureInfo {
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   double alpha_cutoff = 0.5;
   bool is_double_sided = false, is_unlit = false;
-  // The pictures in file order. The first `in_head` ones follow the atlas; the others follow the
+  // The pictures in file order. The first `in_head` of them follow the atlas; the rest follow the
   // chunks.
   std::vector<PictureInfo> pictures;
   std::uint32_t in_head = 0;
@@ -117,8 +117,8 @@ struct OptionalBlock {
 inline constexpr std::size_t kMaxOptionalBlocks = 1'024;
 
 // Returns the maximum number of vertices that a chunk of `length` bytes may add, by splits and by
-// component insertions. The limit bounds a decoder's memory by the bytes received. An encoder
-// appends zero bytes to a chunk that would be too short.
+// component insertions. The limit keeps a decoder's memory proportional to the bytes received. If a
+// chunk is too short for its new vertices, the encoder appends zero bytes.
 constexpr std::uint64_t most_new_vertices(std::uint64_t length) {
   return 16 * (length + 16);
 }
@@ -169,8 +169,8 @@ struct Manifest {
   std::size_t find_chunk(std::uint32_t level, std::uint32_t leaf) const;
 };
 
-// header_bytes() returns the size of the header in bytes. `prefix` must hold at least the first
-// kHeaderPrefix bytes of the file.
+// The function header_bytes() returns the size of the header in bytes. `prefix` must hold at least
+// the first kHeaderPrefix bytes of the file.
 inline constexpr std::size_t kHeaderPrefix = 16;
 Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix);
 
@@ -178,9 +178,9 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix);
 // every count is checked against `limits` and the remaining bytes before memory is allocated.
 Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limits& limits = {});
 
-// Returns the bytes of the header. Also sets the offsets and `file_bytes` of `manifest`. The
-// header, the base mesh, the atlas, the pictures in the head, the chunks, the other pictures and
-// the optional blocks follow each other without gaps.
+// Returns the bytes of the header. Also sets the offsets and `file_bytes` of `manifest`. The file's
+// parts follow each other without gaps, in this order: header, base mesh, atlas, pictures in the
+// head, chunks, other pictures, optional blocks.
 std::vector<std::uint8_t> write_header(Manifest& manifest);
 
 }  // namespace vitrine::inline codec

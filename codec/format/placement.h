@@ -12,9 +12,9 @@
 
 namespace vitrine::inline codec {
 
-// Returns the parity term of the splits that lead to `level`. It alternates between 0 and 1 from
-// level to level. Otherwise rounding would shift v~ by 1/4 unit per level. Levels are counted from
-// `last_level`, the finest one, because the encoder starts there.
+// Returns the parity term of the splits that lead to `level`. The term alternates between 0 and 1
+// from level to level. Without it, rounding would shift v~ by 1/4 unit per level on average. Levels
+// are counted from `last_level`, the finest one, because the encoder starts there.
 constexpr std::int32_t level_parity(std::uint32_t level, std::uint32_t last_level) {
   return static_cast<std::int32_t>((last_level - level) & 1);
 }
@@ -24,9 +24,9 @@ constexpr Vec3i midpoint_term(std::int32_t parity) {
   return {parity, parity, parity};
 }
 
-// Returns the term r of pyramid placement ([WLL] eq. 8). At a boundary edge, which has only one
-// opposite vertex, eq. 11 applies. r = 2 (sum(opposite) / 4m - sum(others) / 4n), rounded half up,
-// plus `parity`. `opposite` holds the m vertices opposite to the edge. `others` holds the n other
+// Returns the term r of pyramid placement ([WLL] eq. 8, or eq. 11 for a boundary edge, which has
+// only one opposite vertex). r = 2 (sum(opposite) / 4m - sum(others) / 4n), rounded half up, plus
+// `parity`. `opposite` holds the m vertices opposite to the edge. `others` holds the n other
 // neighbours. Virtual vertices are left out. Returns midpoint_term(parity) if m or n is 0.
 Vec3i pyramid_term(std::span<const Vec3i> opposite, std::span<const Vec3i> others,
                    std::int32_t parity);

@@ -16,7 +16,7 @@ namespace vitrine::inline codec {
 // The plane that divides a region. Vertices with coordinate[axis] < at go to the first child.
 struct RegionPlane {
   std::uint8_t axis = 0;  // 0: x, 1: y, 2: z
-  std::int32_t at = 0;    // lattice units
+  std::int32_t at = 0;    // position of the plane on the axis, in lattice units
 
   bool is_beyond(const Vec3i& p) const { return (axis == 0 ? p.x : axis == 1 ? p.y : p.z) >= at; }
 };

@@ -17,8 +17,8 @@ namespace vitrine::inline codec {
 struct DracoPrimitive {
   std::vector<Triangle> faces;
   // The values of each attribute, by name ("POSITION", "COLOR_0", "TEXCOORD_n", "JOINTS_n",
-  // "WEIGHTS_n"). Values have the
-  // component type of the attribute's accessor and are stored without gaps.
+  // "WEIGHTS_n"). Values have the component type of the attribute's accessor and are stored without
+  // gaps.
   std::map<std::string, std::vector<std::uint8_t>, std::less<>> values;
 
   std::uint64_t bytes() const;

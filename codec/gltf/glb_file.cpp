@@ -30,7 +30,8 @@ Expected<std::size_t> stated_length(std::span<const std::uint8_t> bytes) {
   return length;
 }
 
-// The start of a chunk: its position in the file, the number of bytes after its header, its type.
+// The start of a chunk: its position in the file, the number of bytes after its header, and its
+// type.
 struct ChunkHeader {
   std::size_t at;
   std::uint32_t size, type;
@@ -42,8 +43,8 @@ ChunkHeader header_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return {at, load<std::uint32_t>(&bytes[at]), load<std::uint32_t>(&bytes[at + 4])};
 }
 
-// Returns the chunk that starts at byte `at`, or at the next multiple of 4 if only there a chunk
-// starts. Some exporters do not count the padding of a chunk.
+// Returns the chunk that starts at byte `at`. If no chunk starts there but one starts at the next
+// multiple of 4, returns that chunk: some exporters do not count the padding of a chunk.
 ChunkHeader next_header(std::span<const std::uint8_t> bytes, std::size_t at) {
   const ChunkHeader found = header_at(bytes, at);
   const std::size_t padded = (at + 3) / 4 * 4;
@@ -55,13 +56,14 @@ ChunkHeader next_header(std::span<const std::uint8_t> bytes, std::size_t at) {
 }  // namespace
 
 Expected<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kMostPadding = 3;  // counted at the file's end, but not written
+  // padding bytes that some exporters count at the file's end, but do not write
+  constexpr std::size_t kMostPadding = 3;
   const auto length = stated_length(bytes);
   if (!length) return tl::unexpected(length.error());
   GlbChunks chunks;
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const ChunkHeader header = next_header(bytes, at);
-    // Bytes after the stated length count only if they are a chunk.
+    // Ignores bytes after the stated length, unless they are a chunk of a known type.
     if (at >= *length && !header.is_known()) break;
     const std::size_t begin = header.at + 8, left = bytes.size() - begin;
     if (header.size > left + kMostPadding)

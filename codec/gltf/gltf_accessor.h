@@ -17,15 +17,15 @@ class Accessor {
   // Opens the accessor number `index`. Corrects a byte stride with which the values do not fit
   // their buffer view, if they fit without gaps. Fails if the values extend beyond the view.
   //
-  // `needed` is the number of values to which indices refer, or 0 if unknown. If the stated count
-  // is smaller than that or exceeds the view, the accessor has `needed` values, if the view holds
-  // them. Some exporters state a wrong count.
+  // `needed` is the number of values to which indices refer, or 0 if unknown. Some exporters state
+  // a wrong count. If the stated count is smaller than `needed` or exceeds the view, the accessor
+  // gets `needed` values, provided that the view holds them.
   static Expected<Accessor> open(const Json& document, GltfBuffer& buffer, std::uint64_t index,
                                  std::uint64_t needed = 0);
 
   // Opens the accessor number `index`, but reads from `values`, the decompressed data of a
-  // primitive, without gaps. The number of values comes from the data, because some exporters state
-  // a wrong count.
+  // primitive, stored without gaps. Computes the number of values from the size of the data,
+  // because some exporters state a wrong count.
   static Expected<Accessor> over(const Json& document, std::span<const std::uint8_t> values,
                                  std::uint64_t index);
 
@@ -34,8 +34,8 @@ class Accessor {
   bool is_whole() const { return type_ != kFloat; }  // whether components are integers
   // Whether the stated count or byte stride was wrong and was corrected.
   bool is_corrected() const { return is_corrected_; }
-  // Treats integers as normalised. Returns false if the file already says so, or if the components
-  // are not integers of 8 or 16 bits.
+  // Treats integers as normalised. Returns false without any effect if the file already says so, or
+  // if the components are not integers of 8 or 16 bits.
   bool normalise();
   // Returns component k of vector i. Integers are normalised if the file says so.
   double real(std::uint64_t i, std::uint32_t k) const;
@@ -61,11 +61,12 @@ class Accessor {
   // The values of a sparse accessor that replace those of its buffer view. Indices ascend.
   struct Sparse {
     std::uint64_t count = 0;
-    Type type = kUint;  // of the indices
+    Type type = kUint;  // component type of the indices
     std::span<const std::uint8_t> indices, values;
 
     std::uint64_t index(std::uint64_t i) const;
-    // Returns the number of the first value whose index is at least i, or `count`.
+    // Returns the position, in the sparse list, of the first value whose index is at least i, or
+    // `count`.
     std::uint64_t find(std::uint64_t i) const;
   };
 

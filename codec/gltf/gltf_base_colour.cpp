@@ -11,7 +11,8 @@ namespace vitrine::inline codec {
 
 namespace {
 
-// Returns the colour of light. Light that is brighter than a picture can show keeps its hue.
+// Returns the colour in which emitted light is shown. Light that is too bright for a picture is
+// scaled down, which keeps its hue.
 LinearColour shown(const Vec3& emission) {
   const double most = std::max({1.0, emission.x, emission.y, emission.z});
   return {emission.x / most, emission.y / most, emission.z / most};

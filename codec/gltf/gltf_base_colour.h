@@ -27,13 +27,13 @@ struct BaseColour {
 class GltfBaseColours {
  public:
   // The references must outlive this object. `most_pixels` is the maximum number of pixels to
-  // decode. A picture that fails to decode also counts, with its pixels plus one pixel for each
-  // byte of its file.
+  // decode. A picture that fails to decode uses up this budget too: its pixels, and one more pixel
+  // for each byte of its file.
   GltfBaseColours(const Json& document, GltfPictures& pictures, std::uint64_t most_pixels)
       : document_(document), pictures_(pictures), pixels_left_(most_pixels) {}
 
-  // Returns the base colour of the primitive's material. The colour's picture lives as long as this
-  // object. If a picture cannot be decoded, passes the fault to GltfPictures::refuse().
+  // Returns the base colour of the primitive's material. BaseColour::picture is valid as long as
+  // this object. If a picture cannot be decoded, passes the fault to GltfPictures::refuse().
   BaseColour of(const Json& primitive);
 
   // Returns the number of pictures that were decoded.

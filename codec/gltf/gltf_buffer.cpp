@@ -10,7 +10,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint64_t kMostExpansionInAll = 1024;
-// Padding at the end of a buffer that some exporters count but do not write.
+// Most bytes of padding at the end of a buffer that some exporters count but do not write.
 constexpr std::uint64_t kMostPadding = 3;
 
 std::string named(std::uint64_t index, const std::string& what) {

@@ -15,7 +15,8 @@ namespace vitrine::inline codec {
 
 struct BufferView {
   std::span<const std::uint8_t> bytes;
-  std::uint64_t stride = 0;  // bytes from one element to the next; 0 if they are contiguous
+  // bytes between the starts of successive elements; 0 if they are contiguous
+  std::uint64_t stride = 0;
 };
 
 class GltfBuffer {
@@ -26,14 +27,14 @@ class GltfBuffer {
       : document_(document), binary_(binary), resources_(resources) {}
 
   // Returns the buffer view number `index`. Fails if the view extends beyond its buffer by more
-  // than 3 bytes. The bytes live as long as this object.
+  // than 3 bytes. The bytes are valid as long as this object.
   Expected<BufferView> view(std::uint64_t index);
 
-  // Adds `bytes` to the total size of decompressed data. Fails (kLimit) if the total exceeds 1024
+  // Adds `bytes` to the total size of decompressed data. Fails (kLimit) if this total exceeds 1024
   // times the size of the file and its companions.
   Expected<void> spend(std::uint64_t bytes);
 
-  // Returns the number of views that extended beyond their buffer, by missing padding.
+  // Returns the number of views that extended beyond their buffer because padding was missing.
   std::uint64_t clipped() const { return clipped_.size(); }
 
   // Returns the total size in bytes of the file, its companions and the decompressed data.
@@ -47,12 +48,11 @@ class GltfBuffer {
   const Json& document_;
   std::span<const std::uint8_t> binary_;
   GltfResources& resources_;
-  // Key: index of a buffer with a URI. Errors are kept as well, so that each URI is looked up only
-  // once.
+  // Key: index of a buffer with a URI. Also holds errors, so that each URI is looked up only once.
   std::map<std::uint64_t, Expected<std::span<const std::uint8_t>>> buffers_;
   // key: index of the compressed buffer view
   std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;
-  std::set<std::uint64_t> clipped_;  // indices of buffer views
+  std::set<std::uint64_t> clipped_;  // indices of the buffer views that were clipped
   std::uint64_t spent_ = 0;
 };
 

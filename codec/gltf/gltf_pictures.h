@@ -18,8 +18,9 @@ class GltfPictures {
   GltfPictures(const Json& document, GltfBuffer& buffer, GltfResources& resources)
       : document_(document), buffer_(buffer), resources_(resources) {}
 
-  // Returns the bytes of image number `index`. They live as long as the constructor's arguments.
-  // If they cannot be read, the error (kBadInput or kLimit) says why, and what the user can do.
+  // Returns the bytes of image number `index`, which are valid as long as the constructor's
+  // arguments. If they cannot be read, the error (kBadInput or kLimit) states the reason and the
+  // user's next step.
   Expected<std::span<const std::uint8_t>> bytes(std::uint64_t index);
 
   // Returns the name of image number `index` or of its file, or an empty string.

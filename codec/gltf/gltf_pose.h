@@ -23,7 +23,7 @@ using Joints = std::vector<Affine>;
 Expected<Joints> joints_of(const Json& document, GltfBuffer& buffer, std::uint64_t node,
                            std::span<const Affine> places);
 
-// Returns the weights of the morph targets of a mesh, which a node may replace.
+// Returns the weights of the mesh's morph targets. The node may override those of the mesh.
 std::vector<double> morph_weights(const Json& document, const MeshInstance& instance);
 
 class GltfPose {
@@ -32,16 +32,17 @@ class GltfPose {
   // object.
   GltfPose(const Affine& place, const Joints& joints) : place_(place), joints_(joints) {}
 
-  // Reads the attributes that place the `count` vertices of a primitive. `weights` are those of the
-  // morph targets. Fails (kBadInput) if the skin's attributes cannot be read.
+  // Reads the attributes that determine the positions of the `count` vertices of a primitive.
+  // `weights` are the weights of the morph targets. Fails (kBadInput) if the skin's attributes
+  // cannot be read.
   Expected<void> read(const Json& document, GltfBuffer& buffer, const GltfPrimitive& primitive,
                       std::uint64_t count, std::span<const double> weights);
 
   // Returns the position of vertex i, which is at `p` in the file.
   Vec3 operator()(std::uint64_t i, Vec3 p) const;
   bool mirrors() const { return place_.mirrors(); }
-  // Returns the number of morph targets with a weight that are left out, because their data does
-  // not match the primitive.
+  // Returns the number of morph targets with a non-zero weight that are ignored because their data
+  // does not match the primitive.
   std::uint64_t dropped_targets() const { return dropped_targets_; }
 
  private:

@@ -20,9 +20,9 @@ class GltfResources {
   GltfResources(const Companions& companions, std::uint64_t file_bytes)
       : companions_(companions), bytes_(file_bytes) {}
 
-  // Returns the data of a URI, which lives as long as this object. Finds a file by the last part of
-  // its percent-decoded path. Fails (kBadInput) with a fault and a next step; the caller adds the
-  // place.
+  // Returns the data of a URI. The data is valid as long as this object. A URI of a file matches
+  // the companion with the same name, that is the last part of its percent-decoded path. Fails
+  // (kBadInput) with a fault and a next step; the caller adds the place.
   Expected<std::span<const std::uint8_t>> find(std::string_view uri);
 
   // Returns the total size in bytes of the glTF file and of the companions found so far.

@@ -22,7 +22,7 @@ struct GltfScene {
 };
 
 // Returns the meshes of the document's default scene. If the document names no default scene, the
-// first scene is used. If it has no scenes, all its meshes are returned without a transform.
+// first scene is used. If the document has no scenes, returns all its meshes without a transform.
 //
 // Fails (kBadInput) if a node does not exist, has two parents, is in a cycle or has an invalid
 // transform. Also fails if the document has meshes but the scene shows none of them.

@@ -11,8 +11,8 @@ namespace vitrine::inline codec {
 
 inline constexpr char kSpecularGlossiness[] = "KHR_materials_pbrSpecularGlossiness";
 
-// Colours are in linear light. The references are to textureInfo objects of the document, or to
-// null.
+// The colours are in linear light. The references are to textureInfo objects of the document, or to
+// JSON null.
 struct GltfSurface {
   std::array<double, 4> colour;  // red, green, blue, opacity; each 0 to 1
   const Json& colour_texture;
@@ -21,8 +21,8 @@ struct GltfSurface {
   Vec3 emission;  // red, green, blue; may exceed 1
   const Json& emission_texture;
 
-  // Whether the material only emits light: its colour is black, its emission is not. Exporters
-  // write unlit models in this way.
+  // Whether the material only emits light: its colour is black and its emission is not. Some
+  // exporters write unlit models in this way.
   bool only_emits() const;
 };
 

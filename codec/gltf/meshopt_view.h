@@ -10,11 +10,12 @@
 
 namespace vitrine::inline codec {
 
-// Returns the decompressed bytes of a view, byteStride bytes per element. `extension` is the
-// extension's JSON object in the view. `compressed` holds the bytes to which the extension refers.
-// meshoptimizer's decoders are safe on untrusted bytes. The result may be at most 64 times as large
-// as `compressed`; valid data never needs more. This is checked before memory is allocated. Fails
-// (kBadInput, kUnsupported) with the fault only; the caller adds the place.
+// Returns the decompressed bytes of a view; each element has as many bytes as the extension's
+// byteStride. `extension` is the extension's JSON object in the view. `compressed` holds the bytes
+// to which the extension refers. meshoptimizer's decoders are safe on untrusted bytes. The result
+// may be at most 64 times as large as `compressed`; valid data never needs more. This is checked
+// before memory is allocated. Fails (kBadInput, kUnsupported) with the fault only; the caller adds
+// the place.
 Expected<std::vector<std::uint8_t>> decode_meshopt(const Json& extension,
                                                    std::span<const std::uint8_t> compressed);
 

@@ -16,9 +16,9 @@ class FaceColours {
   // Adds a face and its colour. Ignores corners that are out of range.
   void add(std::span<const std::uint32_t> corners, const StatedColour& colour);
 
-  // Gives each vertex the mean colour of its faces and reports what is lost. Gives no colours if
-  // all faces are white; keeps vertex colours that exist already. Call this once the mesh has all
-  // its vertices.
+  // Sets the colour of each vertex to the mean colour of its faces, and reports which colours are
+  // lost. Leaves the mesh unchanged if all faces are white or if the mesh already has vertex
+  // colours. Call this once the mesh has all its vertices.
   void give_to(RawMesh& mesh) const;
 
  private:

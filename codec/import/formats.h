@@ -21,7 +21,7 @@ struct ImportFormat {
   std::string_view extension;
   bool (*recognises)(std::span<const std::uint8_t> bytes);
   Expected<RawMesh> (*read)(std::span<const std::uint8_t> bytes, const ReadOptions& options);
-  // returns the unit that the file states, or an empty string
+  // Returns the unit that the file states, or an empty string.
   std::string_view (*unit)(std::span<const std::uint8_t> bytes);
 };
 
@@ -66,7 +66,7 @@ inline constexpr ImportFormat kImportFormats[] = {
      .unit = unit_in_comments},
 };
 
-// The string "PLY, GLB, glTF, STL, OFF, 3MF or OBJ".
+// "PLY, GLB, glTF, STL, OFF, 3MF or OBJ"
 inline constexpr FixedText kImportFormatNames = join(
     kImportFormats, [](const ImportFormat& format) { return format.name; }, ", ", " or ");
 

@@ -11,7 +11,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Whether the mean colour of a sample of pixels is about (128, 128, 255).
+// Whether the mean colour of a sample of pixels is about (128, 128, 255), as in normal maps.
 bool is_light_blue(const Picture& picture) {
   constexpr std::uint32_t kGrid = 32;
   std::array<double, 3> sums{};

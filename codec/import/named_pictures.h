@@ -25,7 +25,7 @@ class NamedPictures {
       : companions_(companions), limits_(limits), pixels_left_(limits.pixels) {}
 
   // Decodes the picture `name`. Returns null if the picture is missing or cannot be decoded. The
-  // picture lives as long as this object.
+  // pointer is valid as long as this object.
   const Picture* find(std::string_view name);
 
   // Keeps the picture `name` for the mesh and returns its index. Returns nullopt if the picture is
@@ -48,13 +48,14 @@ class NamedPictures {
   void note_fault(std::string_view name, const std::string& fault);
 
   struct Fault {
-    std::string name, text;  // the picture's name in the file; the fault with a next step
+    std::string name, text;  // the picture's name in the file, and the fault with a next step
   };
 
   const Companions& companions_;
   const Limits& limits_;
   CarriedPictures carried_;
-  // The keys are companion_key() of the names, because different names may mean the same file.
+  // The keys of the maps are the companion_key() of the names, because different names may refer to
+  // the same file.
   std::map<std::string, std::optional<Picture>> decoded_;
   std::map<std::string, bool> shows_normals_;
   std::map<std::string, Fault> faults_;

@@ -13,7 +13,7 @@ constexpr Colour kUnpainted{255, 255, 255};
 }  // namespace
 
 void ObjColours::add(std::size_t vertex, std::span<const float> numbers) {
-  if (numbers.size() < 3) return;  // a single extra number is the weight w
+  if (numbers.size() < 3) return;  // a single extra number is the weight w, not a colour
   const auto last = numbers.last<3>();
   stated_.resize(vertex, kNoColour);
   stated_.push_back({last[0], last[1], last[2]});
@@ -40,8 +40,8 @@ void ObjColours::read_comment(std::string_view comment) {
   }
 }
 
-// Corrects colours that were given as r g b a. The last three numbers, g b a, were stored as the
-// colour; stores r g b instead.
+// Corrects colours that turn out to be r g b a. For each such vertex, the last three numbers, g b
+// a, were stored as the colour; replaces them by r g b.
 void ObjColours::put_opacity_away() {
   for (std::size_t v = 0; v < first_of_four_.size(); ++v) {
     const auto [g, b, a] = stated_[v];

@@ -30,8 +30,8 @@ constexpr std::array<std::string_view, 9> kUnreadMaps{
 
 constexpr double kMostEmission = 1e6;
 
-// An option of a map statement, and the number of values after it. Fewer values may follow if they
-// are numbers.
+// An option of a map statement, and the most values that may follow it. Numeric options may have
+// fewer values.
 struct MapOption {
   std::string_view name;
   std::size_t values;

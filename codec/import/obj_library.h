@@ -20,7 +20,7 @@ namespace vitrine::inline codec {
 // name is empty if there is no map.
 struct ObjMap {
   std::string name;
-  std::array<float, 2> scale{1, 1}, offset{0, 0};  // for coordinates with v = 0 at the bottom
+  std::array<float, 2> scale{1, 1}, offset{0, 0};  // both for coordinates with v = 0 at the bottom
   bool is_clamped = false;
 
   bool empty() const { return name.empty(); }
@@ -33,15 +33,15 @@ struct ObjMap {
 
 // A material as stated in a material library.
 struct ObjMaterial {
-  std::optional<std::array<double, 3>> diffuse;  // statement Kd
-  double opacity = 1;                            // statement d, or 1 - Tr
-  double metallic = 0, roughness = 1;            // statements Pm and Pr
-  Vec3 emission;                                 // statement Ke
-  ObjMap diffuse_map;                            // statement map_Kd
-  ObjMap opacity_map;                            // statement map_d
-  ObjMap normal_map;                             // statement norm
+  std::optional<std::array<double, 3>> diffuse;  // MTL statement Kd
+  double opacity = 1;                            // MTL statement d, or 1 - Tr
+  double metallic = 0, roughness = 1;            // MTL statements Pm and Pr
+  Vec3 emission;                                 // MTL statement Ke
+  ObjMap diffuse_map;                            // MTL statement map_Kd
+  ObjMap opacity_map;                            // MTL statement map_d
+  ObjMap normal_map;                             // MTL statement norm
   ObjMap bump_map;                               // map_Bump: a height map, but often a normal map
-  ObjMap emission_map;                           // statement map_Ke
+  ObjMap emission_map;                           // MTL statement map_Ke
   std::set<std::string_view> unread;             // map statements that are not read
 };
 

@@ -30,7 +30,7 @@ class ObjMaterials {
   bool open_library(std::string_view name);
 
   // Selects the current material and returns its index among the materials kept. An unknown
-  // material is white. It is reported if any library was read.
+  // material is white, and is reported if any library was read.
   std::uint16_t use(std::string_view name);
   bool has_current() const { return current_ != nullptr; }
   // Returns the index of the material for faces that have none.
@@ -40,11 +40,11 @@ class ObjMaterials {
   bool has_maps() const { return has_maps_; }
 
   // Returns the colour of the current material at (u, v), where (0, 0) is the lower left corner. If
-  // the material has a picture, returns only the picture's colour, as most programs do. Otherwise
-  // returns the diffuse colour Kd, taken as sRGB. A black material returns its emission instead.
+  // the material has a picture, this is the picture's colour alone, as in most programs. Otherwise,
+  // it is the diffuse colour Kd, taken as sRGB, or the emission if Kd is black.
   LinearColour colour_at(double u, double v) const;
 
-  // Whether the materials add nothing to vertex colours.
+  // Whether the materials hold nothing that vertex colours cannot express.
   bool are_plain() const;
 
   // Moves the materials and pictures to the mesh, unless are_plain().

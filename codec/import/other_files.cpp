@@ -12,7 +12,7 @@ namespace {
 
 using std::string_view_literals::operator""sv;
 
-// The next steps. Each one fits several kinds of files.
+// The next steps that messages recommend. Each one fits several kinds of files.
 constexpr std::string_view kBlender = "open it in Blender and export it as GLB",
                            kMeshLab = "open it in MeshLab and export it as PLY",
                            kCad = "open it in FreeCAD, mesh the body there and export it as OBJ",
@@ -41,8 +41,8 @@ constexpr std::string_view kBlender = "open it in Blender and export it as GLB",
                                "it as GLB, OBJ or STL",
                            kJson = "export the model as GLB";
 
-// A kind of file. Its files begin with `magic`, where '?' stands for any byte. A text in any place
-// of the file may tell it from other kinds with the same first bytes.
+// A kind of file that is not read. Its files begin with `magic`, where '?' stands for any byte. If
+// several kinds begin alike, a text somewhere in the file tells them apart.
 struct Kind {
   std::string_view name;
   std::string_view magic;
@@ -50,10 +50,10 @@ struct Kind {
   std::string_view contains = {};
 };
 
-// The first bytes of Microsoft's compound format.
+// The first bytes of Microsoft's compound file format (old Office documents).
 constexpr std::string_view kCompound = "\xD0\xCF\x11\xE0";
 
-// The first kind that fits counts.
+// The first row that matches a file decides its kind.
 constexpr Kind kBinaryKinds[] = {
     {"a USDZ package", "PK\3\4"sv, kBlender, ".usdc"sv},
     {"a USDZ package", "PK\3\4"sv, kBlender, ".usda"sv},
@@ -152,7 +152,8 @@ constexpr Kind kBinaryKinds[] = {
     {"text in UTF-16", "\xFE\xFF"sv, "save it as UTF-8"sv},
 };
 
-// The kinds of XML files and other text, by a text near the start, in lower case.
+// Kinds of XML and other text files. Each is recognised by a text near the start of the file,
+// compared in lower case.
 constexpr Kind kTextKinds[] = {
     {"a COLLADA file (DAE)", "<collada"sv, kBlender},
     {"an X3D file", "<x3d"sv, kMeshLab},
@@ -167,7 +168,7 @@ constexpr Kind kTextKinds[] = {
     {"a material library", "newmtl"sv, "give the .obj file, with this file beside it"sv},
 };
 
-// The kinds of files whose bytes do not tell them, by the ends of their names.
+// Kinds of files that cannot be recognised by their bytes, only by the extensions of their names.
 struct NamedKind {
   std::string_view name, extension, advice;
 };
@@ -215,14 +216,14 @@ bool fits(const Kind& kind, std::string_view file) {
          (kind.contains.empty() || file.find(kind.contains) != file.npos);
 }
 
-// Whether the first line is one of an IGES file: 80 columns, with "S" in column 73.
+// Whether the first line is that of an IGES file: 80 columns, with "S" in column 73.
 bool is_iges(std::string_view file) {
   constexpr std::size_t kSection = 72, kColumns = 80;
   return file.size() > kColumns && file[kSection] == 'S' && file.substr(kColumns - 1, 1) == "1" &&
          (file[kColumns] == '\n' || file[kColumns] == '\r');
 }
 
-// Returns how many numbers the line of the cursor has, or 0 if it has other words. Moves to the
+// Returns how many numbers the cursor's line has, or 0 if it contains anything else. Moves to the
 // next line.
 int numbers_in_line(TextCursor& text) {
   int numbers = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names files that are not read by what they are, according to their bytes and the extensions of
-// their names, and says how to convert them.
+// Describes files that no reader can read: the kind of the file, from its bytes or the extension of
+// its name, and how to convert it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct OtherFile {
 
 // Returns the kind of a file, or nullopt if it is unknown. Call this for files that no reader
 // recognises. The first 4 KB of a file suffice, except for packages and files of Microsoft's
-// compound format. The extension of `name` counts if the bytes do not tell the kind.
+// compound format. Uses the extension of `name` if the bytes do not determine the kind.
 std::optional<OtherFile> describe_other_file(std::span<const std::uint8_t> bytes,
                                              std::string_view name = {});
 

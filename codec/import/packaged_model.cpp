@@ -14,7 +14,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Extensions of models. Formats that can store more data come first.
+// File name extensions of models. Formats that can store more data come first.
 constexpr std::array<std::string_view, std::size(kImportFormats)> kByContents{
     ".glb", ".gltf", ".obj", ".ply", ".3mf", ".off", ".stl"};
 
@@ -28,7 +28,7 @@ std::string visible_path(std::string_view path) {
   return path.empty() ? std::string(kAlone) : std::string(path.substr(0, path.size() - 1));
 }
 
-// Whether the file is hidden, or is metadata that macOS adds to a package for each file.
+// Whether the file is hidden, or is one of the metadata files that macOS adds to packages.
 bool is_hidden(std::string_view path) {
   const std::size_t slash = path.rfind('/');
   return path.substr(slash == path.npos ? 0 : slash + 1).starts_with('.') ||
@@ -56,13 +56,14 @@ bool is_wanted(std::string_view path) {
          companion_kind(key) != CompanionKind::kOther;
 }
 
-// The mark of a level of detail in a name, such as "_lod2".
+// The part of a file name that states a level of detail, such as "_lod2".
 struct LodMark {
   std::size_t begin, size;
   unsigned number;
 };
 
-// Returns the last mark in `text`, which must be in lower case. Returns nullopt if it has none.
+// Returns the last level-of-detail mark in `text`, which must be in lower case. Returns nullopt if
+// there is none.
 std::optional<LodMark> lod_mark(std::string_view text) {
   constexpr std::string_view kWord = "lod", kSeparators = "_-. ";
   const std::size_t word = text.rfind(kWord);
@@ -80,7 +81,7 @@ std::optional<LodMark> lod_mark(std::string_view text) {
 // A file that may be the model.
 struct Candidate {
   std::size_t file;   // index in the files of the package
-  std::string model;  // name without folders, extension and mark of a level
+  std::string model;  // name without folders, extension and level-of-detail mark
   unsigned level;     // level of detail; 0 is the most detailed
   std::size_t kind;   // index in kByContents
 
@@ -106,8 +107,8 @@ std::vector<Candidate> candidates_in(const std::vector<PackedFile>& files) {
   return candidates;
 }
 
-// Whether all candidates are files of the same model, and the first is better than the second.
-// Candidates must be sorted by order().
+// Whether all candidates are files of the same model, and the first candidate is better than the
+// second. Candidates must be sorted by order().
 bool are_one_model(const std::vector<Candidate>& candidates) {
   return std::ranges::all_of(
              candidates,
@@ -126,9 +127,9 @@ Unexpected too_many(const std::vector<PackedFile>& files,
                    "; give one package or file for each of them");
 }
 
-// Returns the error for a package without a model. The error names the kind of the package, if that
-// is known and not supported. Otherwise, the error names the first file that is a model in an
-// unsupported format. Otherwise, it only counts the files.
+// Returns the error for a package without a model. If the package itself is of a known, unsupported
+// kind, the error names that kind. Otherwise it names the first file that is a model in an
+// unsupported format. If there is none, it states the number of files.
 Unexpected no_model(std::span<const std::uint8_t> package, const std::vector<PackedFile>& files) {
   if (const auto kind = describe_other_file(package)) return bad_input(kind->text);
   for (const PackedFile& file : files) {
@@ -149,7 +150,8 @@ std::vector<std::string_view> folders_of(std::string_view path) {
   return folders;
 }
 
-// Returns two numbers of folders: up from `from` to the nearest common folder, then down to `to`.
+// Returns two numbers of steps between folders: up from `from` to the nearest common folder, then
+// down to `to`.
 std::pair<std::size_t, std::size_t> way(std::string_view from, std::string_view to) {
   const auto ups = folders_of(from), downs = folders_of(to);
   const auto fork = std::ranges::mismatch(ups, downs);

@@ -16,11 +16,12 @@ namespace vitrine::inline codec {
 
 class PackagedModel {
  public:
-  // Unpacks a package and chooses its model: the one file with an extension of formats.h. Of
-  // several files of the same model, chooses the most detailed one by the numbers in names such as
-  // "bust_lod0", and then the one whose format stores most: GLB, glTF, OBJ, PLY, 3MF, OFF, STL.
-  // Fails (kBadInput) if the package has several models, which the message names, or none. Other
-  // errors: those of unpack().
+  // Unpacks a package and chooses its model: the only file with an extension of formats.h. If
+  // several files are versions of the same model, chooses the most detailed one, according to the
+  // numbers in names such as "bust_lod0". Among equally detailed versions, chooses the format that
+  // stores most: GLB, glTF, OBJ, PLY, 3MF, OFF, STL, in this order. Fails (kBadInput) if the
+  // package has no model or several models, which the message then names. Also fails with the
+  // errors of unpack().
   static Expected<PackagedModel> open(std::span<const std::uint8_t> package);
 
   // Path in the package; empty for a gzip file.
@@ -32,7 +33,7 @@ class PackagedModel {
   // result is valid while this object exists.
   Companions beside() const;
 
-  // Says which file was chosen, if there was a choice. Otherwise empty.
+  // Returns a note that says which file was chosen, or an empty string if there was no choice.
   const std::string& note() const { return note_; }
 
  private:

@@ -13,14 +13,14 @@ namespace vitrine::inline codec {
 
 class PlyTextures {
  public:
-  // Keeps the pictures of the TextureFile comments. Requires texture coordinates and, for several
-  // pictures, a picture number for each face. Otherwise keeps none.
+  // Keeps the pictures of the TextureFile comments if the file has texture coordinates and, for
+  // several pictures, a picture number for each face. Otherwise keeps no picture.
   PlyTextures(const PlyHeader& header, NamedPictures& pictures);
 
   // Whether no picture is kept.
   bool empty() const { return materials_.empty(); }
 
-  // Returns the material of a face whose texnumber is `number`.
+  // Returns the material of a face whose property texnumber is `number`.
   std::uint16_t material_of(std::uint32_t number);
 
   // Moves the materials to the mesh and reports what is not kept.

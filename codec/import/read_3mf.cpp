@@ -20,7 +20,7 @@ namespace {
 
 using Node = pugi::xml_node;
 
-// A unit of 3MF, and the unit in which the mesh is given.
+// A unit of 3MF, and the unit that the positions of the mesh get.
 struct ThreeMfUnit {
   std::string_view name, given;
   double scale;
@@ -29,13 +29,15 @@ constexpr ThreeMfUnit kThreeMfUnits[] = {{"millimeter", "mm", 1}, {"centimeter",
                                          {"meter", "m", 1},       {"inch", "in", 1},
                                          {"foot", "in", 12},      {"micron", "mm", 0.001}};
 
-constexpr std::size_t kThreeMfStart = 4'096;  // bytes in which the element "model" begins
+// the element "model" begins within this number of bytes
+constexpr std::size_t kThreeMfStart = 4'096;
 
 std::string_view start_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), kThreeMfStart)};
 }
 
-// Returns the unit that the element "model" states. 3MF demands millimetres if there is none.
+// Returns the unit that the element "model" states, or millimetres if it states none, as 3MF
+// demands.
 const ThreeMfUnit& unit_in(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view kUnit = " unit=";
   std::string_view text = start_of(bytes);
@@ -53,7 +55,8 @@ std::string_view local_name(std::string_view name) {
   return name.substr(name.find(':') + 1);
 }
 
-// Returns the value of an attribute, whatever the prefix of its namespace. Empty if it is missing.
+// Returns the value of an attribute with any namespace prefix, or an empty text if the attribute is
+// missing.
 std::string_view value_of(const Node& node, std::string_view name) {
   for (const pugi::xml_attribute& attribute : node.attributes()) {
     if (local_name(attribute.name()) == name) return attribute.value();
@@ -95,8 +98,8 @@ StatedColour colour_in(std::string_view text) {
 // One model file of the package.
 struct Part {
   pugi::xml_document document;
-  std::map<std::string_view, Node> objects;                       // by id
-  std::map<std::string_view, std::vector<StatedColour>> colours;  // by id of the group
+  std::map<std::string_view, Node> objects;                       // key: id
+  std::map<std::string_view, std::vector<StatedColour>> colours;  // key: id of the colour group
 
   bool load(std::span<const std::uint8_t> bytes) {
     if (!document.load_buffer(bytes.data(), bytes.size(), pugi::parse_minimal)) return false;
@@ -124,7 +127,7 @@ class ThreeMfReader {
     const Part* root = part("", bytes);
     if (root == nullptr) return damaged();
     const double scale = unit_in(bytes).scale;
-    // 3MF has z up.
+    // 3MF files have z up.
     const Affine to_y_up{{scale, 0, 0}, {0, 0, -scale}, {0, scale, 0}, {}};
     for (const Node& item : root->document.child("model").child("build").children("item")) {
       if (auto ok = place(*root, item, to_y_up, 0); !ok) return tl::unexpected(ok.error());
@@ -143,7 +146,8 @@ class ThreeMfReader {
     return bad_input("the 3MF's XML is damaged; export the file again");
   }
 
-  // Returns the part with this key, or nullptr if it is damaged. Parses it at the first call.
+  // Returns the part with this key, or nullptr if it is damaged. The first call for a key parses
+  // the part.
   const Part* part(const std::string& key, std::span<const std::uint8_t> bytes) {
     const auto [it, is_new] = parts_.try_emplace(key);
     if (!is_new) return it->second ? &*it->second : nullptr;
@@ -152,7 +156,7 @@ class ThreeMfReader {
     return it->second ? &*it->second : nullptr;
   }
 
-  // Places the object to which an item or component refers.
+  // Adds the object to which an item or component refers to the mesh, with its transform.
   Expected<void> place(const Part& from, const Node& reference, const Affine& outer, int depth) {
     constexpr int kDeepest = 16;
     if (depth > kDeepest || ++placed_ > room_)
@@ -251,8 +255,8 @@ class ThreeMfReader {
 
   const ReadOptions& options_;
   std::map<std::string, std::optional<Part>> parts_;
-  // Bytes of all parts. The mesh has at most as many vertices and faces, however its objects are
-  // repeated.
+  // Total size in bytes of all parts. The mesh gets at most as many vertices and faces as this,
+  // however often its objects are repeated.
   std::uint64_t room_ = 0, placed_ = 0, textured_ = 0;
   RawMesh mesh_;
   FaceColours colours_;

@@ -157,7 +157,7 @@ class GltfReader {
     const BaseColour base = base_colours_.of(primitive.json);
     const std::uint16_t material = materials_.index_of(primitive.json);
     mesh_.use_material(material);
-    // A vertex with two normals or texture coordinates is stored twice in glTF.
+    // glTF stores a vertex twice if it has two normals or texture coordinates.
     mesh_.has_seams =
         mesh_.has_seams || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
     const auto sets = coordinate_accessors(attributes, materials_[material]);
@@ -326,8 +326,8 @@ class GltfReader {
     return add_faces(faces, face, range);
   }
 
-  // Adds `count` faces. `face(f)` returns the three vertices of face f, counted from the first
-  // vertex of `range`.
+  // Adds `count` faces. `face(f)` returns the indices of the three vertices of face f, relative to
+  // the first vertex of `range`.
   template <class Face>
   Expected<void> add_faces(std::uint64_t count, const Face& face, const Range& range) {
     if (auto ok = check_room(mesh_.face_count() + count, "faces"); !ok) return ok;
@@ -404,9 +404,9 @@ class GltfReader {
   std::map<std::uint64_t, DracoPrimitive> decoded_;  // key: index of the buffer view
   std::vector<Affine> places_;                       // see GltfScene
   std::map<std::uint64_t, Joints> skins_;            // key: index of the skin, or kAbsent
-  const Joints* joints_ = nullptr;                   // of the node that is being read
-  std::vector<double> weights_;                      // of the node's morph targets
-  std::set<std::uint64_t> corrected_;                // indices of accessors
+  const Joints* joints_ = nullptr;                   // joints of the node that is being read
+  std::vector<double> weights_;                      // weights of the node's morph targets
+  std::set<std::uint64_t> corrected_;                // indices of accessors that were corrected
   std::uint64_t copies_ = 0, dropped_targets_ = 0;
   std::uint64_t skipped_primitives_ = 0, skipped_points_ = 0;
   bool has_factors_ = false;

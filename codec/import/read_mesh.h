@@ -22,7 +22,8 @@ struct ReadOptions {
   std::string_view unit = {};
   UpAxis up = UpAxis::kY;  // kZ: z points up in the file; the mesh is rotated to y up
   Companions beside = {};  // contents of the files that the mesh file names
-  // Name of the file, or empty. If the bytes do not tell its kind, an error names it by this.
+  // Name of the file, or empty. Error messages use its extension if the file's bytes do not
+  // determine its kind.
   std::string_view name = {};
 };
 
@@ -32,8 +33,8 @@ std::string_view stated_unit(std::span<const std::uint8_t> bytes);
 
 // Reads a mesh. If `bytes` is a package, unpacks it and reads the one model in it, with the files
 // in the package as its companions (packaged_model.h). Call this in the sandbox if the bytes are
-// untrusted, because the decoders of Draco data, pictures and packages are not safe. Fails
-// (kBadInput, kUnsupported, kLimit); the message says where the fault is.
+// untrusted, because the decoders of Draco data, pictures and packages are not safe on hostile
+// bytes. Fails (kBadInput, kUnsupported, kLimit); the message says where the fault is.
 //
 // Allocates at most about 64 times the size of the input and its companions, or 128 times for glTF,
 // which may repeat its meshes. A package counts by its unpacked size. Compressed parts and pictures

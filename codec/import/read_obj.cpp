@@ -90,8 +90,8 @@ class ObjReader {
     }
   }
 
-  // Records that a library is missing. Call this if no sequence of words at the start of `names`
-  // names a library. Returns the end of the missing library's name.
+  // Records that a library is missing. Call this if no sequence of words at the start of `names` is
+  // the name of a library. Returns the end of the missing library's name.
   std::size_t take_missing(std::string_view names, const std::vector<std::size_t>& ends) {
     const auto end = std::ranges::find_if(
         ends, [&](std::size_t at) { return lower_case(names.substr(0, at)).ends_with(".mtl"); });
@@ -103,7 +103,7 @@ class ObjReader {
   }
 
   void use_material(std::string_view name) {
-    // Faces read so far have no material.
+    // The faces read before the first `usemtl` statement have no material.
     if (mesh_.face_count() > 0 && !has_material_) materials_.plain();
     has_material_ = true;
     mesh_.use_material(materials_.use(name));
@@ -132,8 +132,8 @@ class ObjReader {
     return !is_cut_;
   }
 
-  // Returns the texture coordinate of a corner. `vt` counts from 1, or back from the last one if it
-  // is negative. 0 means that the corner has no texture coordinate.
+  // Returns the texture coordinate of a corner. `vt` counts from 1; negative numbers count back
+  // from the last coordinate. 0 means that the corner has no texture coordinate.
   std::array<float, 2> place_of(std::int64_t vt) const {
     const auto count = static_cast<std::int64_t>(places_.size());
     if (vt < 0) vt += count + 1;

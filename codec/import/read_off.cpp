@@ -14,7 +14,7 @@ namespace {
 
 // The keyword of a file: letters that say what each vertex has, followed by "OFF".
 struct OffKeyword {
-  std::size_t size = 0;  // in bytes; 0 if the file has no keyword
+  std::size_t size = 0;  // length of the keyword in bytes; 0 if the file has none
   bool has_colours = false, has_normals = false, has_coordinates = false;
   bool has_more_dimensions = false;
   // Whether the colour of a vertex precedes its normal. In Geomview files, the keyword letters are
@@ -129,8 +129,8 @@ class OffReader {
     return count;
   }
 
-  // Finds the vertex colour among the numbers after the coordinates. Returns false if numbers are
-  // missing.
+  // Finds the vertex colour among the numbers after a vertex's coordinates. Returns false if the
+  // line has too few numbers.
   bool take_extra(std::size_t count) {
     const std::size_t coordinates = keyword_.has_coordinates ? 2 : 0;
     std::size_t normals = keyword_.has_normals ? 3 : 0;
@@ -146,8 +146,8 @@ class OffReader {
     return true;
   }
 
-  // Gives the vertices their colours. If the keyword has no C, negative numbers mean that the extra
-  // numbers are not colours.
+  // Sets the colours of the vertices. If the keyword has no C, negative numbers mean that the
+  // numbers after the coordinates are not colours.
   void take_colours() {
     if (colours_.empty()) return;
     const auto is_negative = [](const StatedColour& colour) {

@@ -89,7 +89,7 @@ class BinaryValues {
       case PlyType::kInt32:
         return bytes_.read<std::int32_t>(swap);
       case PlyType::kInt64:
-      case PlyType::kUint64:  // values above the signed range become negative
+      case PlyType::kUint64:  // values above the range of int64 become negative
         return bytes_.read<std::int64_t>(swap);
       default:
         return bytes_.read<std::uint32_t>(swap);
@@ -154,14 +154,14 @@ double scale_of(PlyType type) {
     case PlyType::kUint16:
       return 1.0 / 65535;
     default:
-      return 1.0 / 255;  // wider integers hold 0 to 255 as well
+      return 1.0 / 255;  // wider integer types hold values from 0 to 255 as well
   }
 }
 
 // Says which properties of a vertex the reader uses, and for what.
 struct VertexPlan {
   std::vector<Slot> slots;
-  std::vector<PlyType> types;  // types to use when reading the values
+  std::vector<PlyType> types;  // types as which the values are read
   unsigned found = 0;          // bit n is set if the file has slot n
   double colour_scale = 1;
   bool has_normal = false;

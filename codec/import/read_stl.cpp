@@ -24,7 +24,8 @@ std::string_view as_text(std::span<const std::uint8_t> bytes) {
 // Facets in file order. Every three consecutive positions are the corners of one facet.
 struct Facets {
   std::vector<Vec3> corners;
-  std::vector<StatedColour> colours;  // one per facet, or kNoColour; may end early
+  // One colour per facet, or kNoColour. Colours of the last facets may be missing.
+  std::vector<StatedColour> colours;
 
   void paint(const StatedColour& colour) {
     colours.resize(corners.size() / 3, kNoColour);
@@ -104,7 +105,7 @@ bool is_control(std::uint8_t byte) {
 
 // Whether the file is text. Text starting with "solid" contains no zero byte. Text of another
 // format, such as OFF, contains no control character. Binary facets nearly always contain both.
-// This check is needed because digits can look like plausible facets.
+// This check is needed because text can look like plausible binary facets.
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kHeadBytes = 1024;
   const auto head = bytes.first(std::min(bytes.size(), kHeadBytes));
@@ -131,7 +132,7 @@ std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
   return is_believed && stated <= there ? std::optional(stated) : std::nullopt;
 }
 
-// Returns the colour of the whole object, which Materialise Magics stores in the header as "COLOR="
+// Returns the colour of the whole object. Materialise Magics stores it in the header as "COLOR="
 // and four bytes.
 std::optional<StatedColour> object_colour(std::span<const std::uint8_t> header) {
   constexpr std::string_view kKeyword = "COLOR=";
@@ -293,8 +294,8 @@ std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes
   return std::to_string(there) + " of " + std::to_string(count) + " triangles";
 }
 
-// Accepts "solid" without a blank after it, because some programs write the solid's name directly
-// behind it.
+// Accepts "solid" without a space after it, because some programs write the solid's name directly
+// after the word.
 bool is_text_stl(std::span<const std::uint8_t> bytes) {
   const std::string word = lower_case(first_word(bytes).substr(0, 6));
   if (word == "solid") return true;

@@ -109,8 +109,8 @@ class TextCursor {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
   }
 
-  // Returns the value for a number out of range: 0 if it is too small, the type's largest value if
-  // it is too large. Later checks refuse the largest value.
+  // Returns a substitute for a number that is out of range: 0 if it is too small, the type's
+  // largest value if it is too large. Later checks refuse the largest value.
   template <class Number>
   static Number out_of_range(Number, const char* begin, const char* end) {
     const std::string_view text(begin, static_cast<std::size_t>(end - begin));

@@ -63,8 +63,8 @@ struct Connectivity::EdgeTable {
   Expected<void> check_distinct() const;
 };
 
-// Sorts the edges by end vertex and then by start vertex, using counting sort twice. One table of
-// counts serves for both, because each vertex has as many incoming as outgoing edges.
+// Sorts the edges by end vertex and then by start vertex, with two counting sorts. Both sorts use
+// the same table of counts, because each vertex has as many incoming as outgoing edges.
 Connectivity::EdgeTable::EdgeTable(std::uint32_t vertex_count, std::span<const Triangle> faces)
     : edges(faces.size() * 3), start(std::size_t{vertex_count} + 1, 0) {
   const auto corners = static_cast<Corner>(faces.size() * 3);
@@ -216,7 +216,7 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
   corner_at_.push_back(at_i);
   for (std::uint32_t k = i; k != j; k = k + 1 == n ? 0 : k + 1)
     set_vertex(corners[k], w);
-  // The swings are those of glue() at the five pairs of opposite corners.
+  // The swings below have the values that glue() would set for the five pairs of opposite corners.
   const Corner a = static_cast<Corner>(step_.size()), b = a + 3;
   step_.push_back({.to = qi, .swing = b});
   step_.push_back({.to = w, .swing = prev(before_i)});

@@ -28,7 +28,7 @@ inline constexpr Corner kNoCorner = 0xFFFF'FFFFu;
 constexpr bool is_virtual(VertexId v) {
   return (v & kVirtualBit) != 0;
 }
-// The remainder of c is as good as random, so both functions avoid a branch on it.
+// next() and prev() avoid branches, because the remainder of c by 3 is unpredictable.
 constexpr Corner next(Corner c) {
   return c + 1 - 3 * static_cast<Corner>(c % 3 == 2);
 }
@@ -98,8 +98,8 @@ class Connectivity {
   // Appends the components of `part`, which must have no removed faces. The vertices, faces and
   // loops of `part` get the numbers after the existing ones.
   void append(Connectivity part);
-  // Removes the most recently added vertices, faces and loops. The arguments say how many to
-  // remove. The removed elements must be whole components.
+  // Removes the newest vertices, faces and loops, as many as the arguments state. The removed
+  // elements must be whole components.
   void drop(std::uint32_t vertices, std::uint32_t faces, std::uint32_t loops);
   // Removes `v` and its faces. The mesh is invalid until the whole component has been removed.
   void erase(VertexId v);
@@ -112,9 +112,9 @@ class Connectivity {
     step_[prev(b)].swing = next(a);
   }
   struct EdgeTable;
-  // First step of close(): records for each inner edge that the two corners across it are opposite
-  // to each other. The result has one entry per vertex. If a border edge leaves the vertex, the
-  // entry is the corner opposite to that edge; otherwise it is kNoCorner.
+  // First step of close(): for each inner edge, records that the corners opposite to it in its two
+  // faces are opposite to each other. The result has one entry per vertex. If a border edge leaves
+  // the vertex, the entry is the corner opposite to that edge; otherwise it is kNoCorner.
   Expected<std::vector<Corner>> glue_twins(const EdgeTable& table);
   // Second step of close(): closes each boundary loop with faces that meet at a new virtual vertex.
   Expected<void> close_loops(std::span<const Corner> border);
@@ -126,10 +126,10 @@ class Connectivity {
   void add_valence(VertexId v, int delta);
   void anchor(VertexId v, Corner c);
 
-  // Nearly all operations walk around vertices. The table therefore stores together the two values
-  // that a step of a walk reads: the vertex at the other end of the edge, and the next corner at
-  // the same vertex. A corner's own vertex and its opposite corner are not stored, because the
-  // other corners of the face give them.
+  // Nearly all operations walk around vertices. A step of such a walk reads two values: the vertex
+  // at the other end of the edge, and the next corner at the same vertex. The table stores these
+  // two together. It does not store a corner's own vertex and opposite corner, because both follow
+  // from the other corners of the face.
   struct Step {
     VertexId to = kNoCorner;  // vertex(next(c)); kNoCorner in a removed face
     Corner swing = kNoCorner;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognises materials that add nothing to vertex colours.
+// Recognises materials that can be replaced by vertex colours.
 #pragma once
 
 #include "codec/mesh/texturing.h"
 
 namespace vitrine::inline codec {
 
-// Whether a material adds nothing to vertex colours: it has no maps, is not metallic, emits no
-// light, is opaque and is lit. A mesh does not keep its materials if all of them are plain.
+// Whether vertex colours can replace the material: it has no maps, is not metallic, emits no light,
+// is opaque and is lit. A mesh does not keep its materials if all of them are plain.
 inline bool is_plain(const Material& material) {
   bool has_map = false;
   for_each_map(material, [&](const TextureMap&) { has_map = true; });

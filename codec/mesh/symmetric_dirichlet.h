@@ -21,14 +21,14 @@ double doubled_area(const Vec3& a, const Vec3& b);
 struct TriangleShape {
   TriangleShape(const Vec3& a, const Vec3& b);
 
-  double area;                 // doubled_area()
-  double cot_a, cot_b, cot_0;  // cotangents of the corners, halved
+  double area;                 // result of doubled_area()
+  double cot_a, cot_b, cot_0;  // halved cotangents of the corners
 };
 
 // A triangle (u, a, b), where u is the point that moves. Its corners run counter-clockwise.
 class EnergyTriangle {
  public:
-  // `shape` is that of the triangle in space.
+  // `shape` is the shape of the triangle in space.
   EnergyTriangle(const Vec2& a, const Vec2& b, const TriangleShape& shape)
       : a_(a), b_(b), shape_(shape), constant_(shape.cot_0 * dot(b - a, b - a)) {}
 
@@ -61,7 +61,7 @@ class EnergyTriangle {
 // triangle is flipped.
 double area_ratio(const Vec2& u, std::span<const EnergyTriangle> star);
 
-// Returns the improved place of the point u in the middle of `star`. Takes one Newton step and
+// Returns an improved position for the point u in the middle of `star`. Takes one Newton step and
 // shortens it until it lowers the energy. Returns u itself if no step lowers the energy or a
 // triangle is flipped.
 Vec2 relaxed(const Vec2& u, double scale, std::span<const EnergyTriangle> star);

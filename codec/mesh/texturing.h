@@ -73,7 +73,7 @@ struct Material {
   std::optional<TextureMap> occlusion_map;  // values in the red channel
   std::optional<TextureMap> emission_map;   // colours in sRGB
   AlphaMode alpha_mode = AlphaMode::kOpaque;
-  double alpha_cutoff = 0.5;  // for kMask: smaller opacities are invisible
+  double alpha_cutoff = 0.5;  // if the mode is kMask, points of smaller opacity are invisible
   bool is_double_sided = false;
   bool is_unlit = false;
 };

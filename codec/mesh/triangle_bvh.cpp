@@ -57,8 +57,8 @@ std::size_t widest_axis(std::span<const Centre> centres) {
   return axis;
 }
 
-// Sorts the centres so that the two halves of the array lie on different sides of a plane. Does the
-// same with each half, recursively.
+// Sorts the centres so that a plane separates the two halves of the array. Sorts each half in the
+// same way, recursively.
 void order(std::span<Centre> centres) {
   if (centres.size() <= TriangleBvh::kLeafSize) return;
   const std::size_t axis = widest_axis(centres), half = centres.size() / 2;
@@ -165,9 +165,9 @@ void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count
   node.high = {round_up(high.x), round_up(high.y), round_up(high.z)};
 }
 
-// Whether the leaves' boxes together have many times the area of the whole box. The ratio is the
-// mean number of leaves that a line through the whole box meets. It is a few for most surfaces, and
-// grows with the number of triangles of a fan.
+// Whether the leaves' boxes together have more than kMany times the surface area of the root's box.
+// The ratio is the mean number of leaves that a line through the root's box meets. It is small for
+// most surfaces. For a fan of long triangles, it grows with their number.
 bool TriangleBvh::has_overlapping_leaves() const {
   constexpr double kMany = 64;
   double sum = 0;
@@ -190,8 +190,8 @@ void TriangleBvh::orient(std::uint32_t node, std::uint32_t first, std::uint32_t 
   orient(nodes_[node].first + 1, first + count / 2, count - count / 2);
 }
 
-// Returns a lower bound of the squared distance from p to the node's triangles. Does not look for a
-// better bound than `enough`.
+// Returns a lower bound of the squared distance from p to the node's triangles. Skips the costly
+// oriented box if the first bound is at least `enough`.
 double TriangleBvh::squared_to_box(std::uint32_t node, const Vec3& p, double enough) const {
   const double squared = squared_distance(nodes_[node], p, slack_);
   if (oriented_.empty() || squared >= enough) return squared;
@@ -206,7 +206,7 @@ ClosestTriangle TriangleBvh::closest(const Vec3& p, ClosestTriangle best, double
   std::array<PendingNode, 64> stack;  // 64 suffice, because the tree is balanced
   std::size_t size = 0;
   best.visited = 0;
-  double ignored = std::numeric_limits<double>::infinity();  // least `squared` of ignored nodes
+  double ignored = std::numeric_limits<double>::infinity();  // least `squared` of all ignored nodes
   if (!empty()) stack[size++] = {0, 0};
   while (size > 0) {
     const PendingNode top = stack[--size];

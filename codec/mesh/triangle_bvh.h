@@ -68,9 +68,9 @@ class TriangleBvh {
   bool is_slender() const { return !oriented_.empty(); }
 
   // Returns the closest triangle, or `bound` if no triangle is closer. A good bound, such as the
-  // distance to a nearby triangle, makes the query several times faster. Once it has visited
-  // kExactNodes nodes, a query ignores triangles that are closer by less than the factor
-  // 1 + `precision`, since many triangles may be about equally close.
+  // distance to a nearby triangle, makes the query several times faster. After kExactNodes nodes, a
+  // query ignores triangles that are closer than the best one by less than the factor 1 +
+  // `precision`, because many triangles may be about equally close.
   static constexpr std::uint32_t kExactNodes = 256;
   ClosestTriangle closest(const Vec3& p, ClosestTriangle bound = {}, double precision = 0) const;
 
@@ -86,9 +86,10 @@ class TriangleBvh {
   std::vector<Node> own_nodes_;
   std::vector<Triangle> own_faces_;
   std::vector<OrientedBox> own_oriented_;
-  std::span<const Node> nodes_;            // view of own_nodes_ or of the shape's nodes
-  std::span<const OrientedBox> oriented_;  // same for own_oriented_: one for each node, or empty
-  std::span<const Triangle> faces_;        // view of own_faces_ or of the shape's faces
+  std::span<const Node> nodes_;  // view of own_nodes_ or of the shape's nodes
+  // view of own_oriented_ or of the shape's boxes: one per node, or empty
+  std::span<const OrientedBox> oriented_;
+  std::span<const Triangle> faces_;  // view of own_faces_ or of the shape's faces
   std::vector<Vec3> positions_;
   std::vector<std::uint32_t> vertices_;
   // Largest distance, in model units, by which moved triangles may extend beyond their boxes.

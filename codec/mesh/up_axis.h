@@ -14,7 +14,7 @@ enum class UpAxis { kY, kZ };
 constexpr Vec3 turn_z_up_to_y(const Vec3& p) {
   return {p.x, p.z, -p.y};
 }
-// The subtraction keeps zero positive, which text formats would write as "-0".
+// Subtracts from 0 instead of negating, because -0.0 would appear as "-0" in text formats.
 constexpr Vec3 turn_y_up_to_z(const Vec3& p) {
   return {p.x, 0 - p.z, p.y};
 }

@@ -15,8 +15,9 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 // normal would be 0 gets (0, 0, 1).
 std::vector<Vec3> unit_normals(const TriangleMesh& mesh);
 
-// Like vertex_normals(), but a vertex also counts the faces of all other vertices at its position.
-// A file that repeats its vertices, such as STL, then looks like one with shared vertices.
+// Like vertex_normals(), but the normal of a vertex includes the faces of all other vertices at the
+// same position. A mesh with repeated vertices, as in STL, then looks like one with shared
+// vertices.
 std::vector<Vec3> position_normals(const TriangleMesh& mesh);
 
 }  // namespace vitrine::inline codec

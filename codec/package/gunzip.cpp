@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kBlock = 1 << 16;
 
-// The input of a decompressor, which takes at most 4 GB at once.
+// Passes the next part of the input to the decompressor. It takes at most 4 GB at once.
 void give_input(z_stream& stream, std::span<const std::uint8_t>& bytes) {
   if (stream.avail_in > 0) return;
   const auto count = std::min<std::size_t>(bytes.size(), std::numeric_limits<uInt>::max());
@@ -22,7 +22,7 @@ void give_input(z_stream& stream, std::span<const std::uint8_t>& bytes) {
   bytes = bytes.subspan(count);
 }
 
-// Whether the rest of the input begins with another member.
+// Whether another gzip member follows in the input.
 bool has_next_member(const z_stream& stream) {
   return is_gzip({stream.next_in, stream.avail_in});
 }

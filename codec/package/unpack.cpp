@@ -17,7 +17,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using Archive = std::unique_ptr<archive, decltype(&archive_read_free)>;
 
-constexpr int kDeepest = 3;  // packages inside each other
+constexpr int kDeepest = 3;  // how many packages may be nested
 
 std::string_view text_in(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -43,7 +43,8 @@ Unexpected refused(ErrorCode code, const std::string& fault) {
   return fail(code, "the package " + fault);
 }
 
-// libarchive's messages may contain names from the package, and ends of lines.
+// Keeps only the first line of libarchive's message, in printable form, because the message may
+// contain names from the package.
 Unexpected damaged(archive* handle) {
   const char* said = archive_error_string(handle);
   std::string why = said != nullptr ? said : "its contents are unreadable";
@@ -100,7 +101,8 @@ class Unpacker {
   Unpacker(std::uint64_t most, const std::function<bool(std::string_view)>& keeps_whole)
       : left_(most), most_(most), keeps_whole_(keeps_whole) {}
 
-  // `prefix` is put before the paths in the package. `depth` is the number of packages around it.
+  // Unpacks a package. `prefix` is put before the paths in it. `depth` is the number of packages
+  // that contain it.
   Expected<void> unpack(std::span<const std::uint8_t> package, const std::string& prefix,
                         int depth) {
     if (!is_gzip(package)) return unpack_archive(package, prefix, depth);
@@ -169,7 +171,8 @@ class Unpacker {
   // Adds a whole file, or the files in it if it is a package.
   Expected<void> add(PackedFile file, int depth) {
     if (is_package(file.bytes) && depth + 1 < kDeepest) {
-      left_ += file.bytes.size();  // only the files in it count
+      // counts only the files inside the package, not the package itself
+      left_ += file.bytes.size();
       return unpack(file.bytes, file.path, depth + 1);
     }
     files_.push_back(std::move(file));

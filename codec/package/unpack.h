@@ -14,14 +14,14 @@
 
 namespace vitrine::inline codec {
 
-// Largest size of all files of a package together, in bytes. A package also unpacks to at most
-// kMostUnpackedPerByte times its own size; deflate reaches 1032.
+// Largest total size of a package's unpacked files, in bytes. This total is also at most
+// kMostUnpackedPerByte times the size of the package; deflate reaches a ratio of 1032.
 inline constexpr std::uint64_t kMostUnpackedBytes = 16ull << 30;
 inline constexpr std::uint64_t kMostUnpackedPerByte = 1'040;
 inline constexpr std::size_t kMostPackedFiles = 65'536;
 inline constexpr std::size_t kMostPathBytes = 1'024;
-// Files that are not wanted whole are kept up to this size in bytes, so that their kind can be
-// told.
+// A file that is not kept whole is cut after this number of bytes, which suffice to recognise its
+// kind.
 inline constexpr std::size_t kHeadBytes = 4'096;
 
 struct PackedFile {
@@ -32,15 +32,16 @@ struct PackedFile {
 // Whether the bytes begin like a zip, tar or gzip package. False for a zip without files.
 bool is_package(std::span<const std::uint8_t> bytes);
 
-// Returns the files of a package in its order, without folders and links. Files for which
-// `keeps_whole(path)` is false are cut after kHeadBytes. Packages among the others are unpacked in
-// place, up to three inside each other. A file compressed by gzip has the path of its package
-// without ".gz", or an empty path if it is the whole package. Checks the checksums of zip and gzip.
+// Returns the files of a package in their order, without folders and links. Cuts the files for
+// which `keeps_whole(path)` is false after kHeadBytes. Among the whole files, packages are replaced
+// by their own files, up to three levels deep. A file compressed by gzip has the path of its
+// package without ".gz", or an empty path if it is the whole package. Verifies the checksums of zip
+// and gzip.
 //
-// Allocates at most about the unpacked size of the package, twice for a tar inside of gzip. Fails
-// with kBadInput if the package is damaged, encrypted, or has a path that is absolute or contains
-// "..", with kUnsupported if a zip is compressed by another method than deflate, and with kLimit
-// if it exceeds a limit above.
+// Allocates at most about the unpacked size of the package, or twice that for a tar inside of gzip.
+// Fails with kBadInput if the package is damaged or encrypted, or has a path that is absolute or
+// contains "..". Fails with kUnsupported if a zip uses another compression method than deflate, and
+// with kLimit if the package exceeds a limit above.
 Expected<std::vector<PackedFile>> unpack(
     std::span<const std::uint8_t> package,
     const std::function<bool(std::string_view path)>& keeps_whole);

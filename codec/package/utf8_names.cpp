@@ -4,8 +4,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Loaded when the program starts, because a sandbox forbids to open the locale's files. Null if the
-// system does not have the locale.
+// Loaded when the program starts, because a sandboxed process may not open the locale's files. Null
+// if the system does not have the locale.
 const locale_t kUtf8Locale = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace vitrine::inline codec {
 
 // While an object of this class exists, the calling thread uses the locale C.UTF-8. In the locale
-// C, libarchive returns no name that has other characters than ASCII.
+// C, libarchive returns no names with non-ASCII characters.
 class Utf8Names {
  public:
   Utf8Names();

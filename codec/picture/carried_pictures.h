@@ -35,7 +35,8 @@ class CarriedPictures {
   std::vector<EncodedPicture> pictures_;
   std::map<Place, std::uint32_t> by_place_;
   std::map<Sha256, std::uint32_t> by_contents_;
-  std::uint64_t bytes_ = 0;  // total size of all different spans; also bounds the time for hashing
+  // total size of all different spans; its limit also bounds the time for hashing
+  std::uint64_t bytes_ = 0;
 };
 
 }  // namespace vitrine::inline codec

@@ -39,7 +39,8 @@ constexpr std::array<Format, 17> kOthers{{{"image/ktx2", 0, "\xABKTX 20"},
                                           {"image/vnd.radiance", 0, "#?RADIANCE"},
                                           {"image/tiff", 0, {"II*\0", 4}},
                                           {"image/tiff", 0, {"MM\0*", 4}},
-                                          {"image/tiff", 0, {"II+\0\b\0", 6}},  // BigTIFF
+                                          // the signature of BigTIFF
+                                          {"image/tiff", 0, {"II+\0\b\0", 6}},
                                           {"image/tiff", 0, {"MM\0+\0\b", 6}},
                                           {"image/gif", 0, "GIF8"},
                                           {"image/bmp", 0, "BM"},
@@ -94,8 +95,8 @@ Unexpected too_many_pixels() {
   return fail(ErrorCode::kLimit, "has too many pixels; make it smaller");
 }
 
-// Returns a picture whose pixels are not set yet. `credible_pixels` is the largest number of pixels
-// that the file's bytes can encode. Subtracts the picture's pixels from `pixels_left`.
+// Returns a picture whose pixels are not set yet, and subtracts their number from `pixels_left`.
+// `credible_pixels` is the largest number of pixels that the file's bytes can encode.
 Expected<Picture> blank(std::uint64_t width, std::uint64_t height, std::uint64_t credible_pixels,
                         std::uint64_t& pixels_left) {
   if (width == 0 || height == 0 || width > 1 << 24 || height > 1 << 24 ||
@@ -185,7 +186,7 @@ Expected<Picture> decode_picture(Bytes bytes, std::uint64_t most_pixels) {
 
 Expected<Picture> decode_picture_within(std::uint64_t& pixels_left, Bytes bytes) {
   if (auto ok = check_picture_format(bytes); !ok) return tl::unexpected(ok.error());
-  if (pixels_left == 0) return too_many_pixels();  // skips the slow search for the size
+  if (pixels_left == 0) return too_many_pixels();  // saves the slow search for the picture's size
   if (is_png(bytes)) return decode_png(bytes, pixels_left);
   if (is_jpeg(bytes)) return decode_jpeg(bytes, pixels_left);
   return decode_webp(bytes, pixels_left);

@@ -32,7 +32,7 @@ Expected<std::vector<std::uint8_t>> write_webp(const Picture& picture, int quali
   const std::unique_ptr<WebPPicture, void (*)(WebPPicture*)> freed(&webp, WebPPictureFree);
   std::vector<std::uint8_t> out;
   config.quality = static_cast<float>(quality);
-  config.method = 6;  // the slowest; saves 5 % of the bytes
+  config.method = 6;  // the slowest method; saves 5 % of the bytes
   webp.width = static_cast<int>(picture.width);
   webp.height = static_cast<int>(picture.height);
   webp.writer = append;

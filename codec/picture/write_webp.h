@@ -10,9 +10,8 @@
 
 namespace vitrine::inline codec {
 
-// `quality` is 0 to 100 as libwebp defines it. Opacity is written without loss if a pixel is not
-// opaque. Fails with kUnsupported. The message states the reason; the caller must add what the user
-// can do.
+// `quality` is 0 to 100 as libwebp defines it. If any pixel is not opaque, stores opacity without
+// loss. Fails with kUnsupported. The error states the reason; the caller must add the next step.
 Expected<std::vector<std::uint8_t>> write_webp(const Picture& picture, int quality);
 
 }  // namespace vitrine::inline codec

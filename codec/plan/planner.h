@@ -27,12 +27,12 @@ struct WantBytes {
 struct WantError {
   double error;
 };
-// Asks for this level in all regions of the model.
+// Asks for level `level` in all regions of the model.
 struct WantLevel {
   std::uint32_t level;
 };
-// A detail target. View asks for detail until no visible error exceeds the camera's limit; the
-// planner then prefers the chunks that remove the most error per byte.
+// A detail target. A View asks for detail until no visible error exceeds the view's limit. For a
+// View, the planner prefers the chunks that remove the most error per byte.
 using Want = std::variant<WantTriangles, WantBytes, WantError, WantLevel, View>;
 
 class Planner {

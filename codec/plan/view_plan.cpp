@@ -6,8 +6,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Minimum gain of a chunk, as a share of the coarser level's error in pixels. Without this minimum,
-// a level whose error bound equals that of the coarser level would block all finer levels.
+// Smallest gain of a chunk, as a share of the coarser level's error in pixels. It keeps the gain
+// positive if a level's error bound equals that of the coarser level. With a gain of 0, such a
+// level would block all finer levels.
 constexpr double kLeastGain = 0.01;
 
 }  // namespace

@@ -8,11 +8,11 @@
 //
 // A refiner uses at most 60 bytes per triangle of the current closed mesh (64 with colours, and 32
 // more with texture coordinates), 1 KiB per region, 8 bytes per byte of the header (for its
-// adjacency and chunk index) and 512 KiB. A chunk adds at most 16 vertices per byte and 256 more
-// (most_new_vertices). Its splits add at most one vertex per existing vertex. An inserted component
-// has at most two faces per vertex. Arrays grow in blocks of 2,048 elements, so a split allocates
-// nothing of its own. If memory runs out, start() and apply() throw std::bad_alloc; a refiner that
-// threw can only be destroyed or replaced.
+// adjacency and chunk index) and 512 KiB. A chunk of n bytes adds at most 16 * n + 256 vertices
+// (most_new_vertices()). Its splits add at most one vertex per existing vertex. An inserted
+// component has at most two faces per vertex. Arrays grow in blocks of 2,048 elements, so a split
+// allocates nothing of its own. If memory runs out, start() and apply() throw std::bad_alloc; a
+// refiner that threw can only be destroyed or replaced.
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,7 @@ class Canvas {
         samples_(std::size_t{width_} * height_) {}
 
   // Draws a face at the samples where `is_solid(Barycentric, SamplePosition)` is true and the face
-  // is nearer than all faces drawn before. `face` must be below 2^32 - 1.
+  // is nearer to the eye than all faces drawn before. `face` must be below 2^32 - 1.
   template <class IsSolid>
   void draw(std::uint32_t face, const ScreenTriangle& triangle, IsSolid is_solid) {
     if (triangle.signed_area() == 0) return;

@@ -11,8 +11,8 @@ namespace vitrine::inline codec {
 
 // With AlphaMode::kMask, a sample is visible if its opacity is at least the cutoff. With
 // AlphaMode::kBlend, the face is visible at a share of a pixel's samples (screen-door
-// transparency). This share equals the opacity, rounded to a multiple of 1 / kSamples^2. Faces
-// therefore need no sorting.
+// transparency). This share equals the opacity, rounded to a multiple of 1 / kSamples^2. Unlike
+// blending, this does not require faces to be sorted by depth.
 class FaceOpacity {
  public:
   // `material` must outlive this object.

@@ -51,8 +51,8 @@ void append(std::vector<std::uint8_t>& pixels, const Texel& texel, PictureCoding
   pixels.insert(pixels.end(), {byte(0), byte(1), byte(2), byte(3)});
 }
 
-// The pixels that one pixel of the next level covers along one axis, and the share of its length
-// that each of them takes.
+// The pixels of one level that a pixel of the next level covers along one axis, and the weight of
+// each.
 struct BoxFilter {
   std::uint32_t first, count;
   std::array<float, 3> weights;
@@ -61,7 +61,7 @@ struct BoxFilter {
 BoxFilter box_filter(std::uint32_t i, std::uint32_t size) {
   if (size == 1) return {0, 1, {1}};
   if (size % 2 == 0) return {2 * i, 2, {0.5f, 0.5f}};
-  // A new pixel covers 2 pixels, or 2 + 1 / half if `size` is odd.
+  // A pixel of the next level covers 2 pixels of this level, or 2 + 1 / half if `size` is odd.
   const std::uint32_t half = size / 2;
   const auto share = [&](std::uint32_t parts) {
     return static_cast<float>(parts) / static_cast<float>(size);

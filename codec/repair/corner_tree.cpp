@@ -8,8 +8,8 @@ namespace vitrine::inline codec {
 namespace {
 
 // Whether a point of the box may lie left of the line from a to b, or on it. Tests the corner of
-// the box that is farthest to the left. Rounding is monotonic, so if a point of the box has a
-// signed area of at least 0, that corner has one, too.
+// the box that is farthest to the left. Rounding is monotonic, so if any point of the box has a
+// computed signed area of at least 0, so does that corner.
 bool reaches_left(const FlatCorner& a, const FlatCorner& b, const FlatCorner& low,
                   const FlatCorner& high) {
   const FlatCorner farthest{b.v > a.v ? low.u : high.u, b.u > a.u ? high.v : low.v};

@@ -42,7 +42,7 @@ class CornerTree {
   // A node has the children 2 i + 1 and 2 i + 2, unless its range has at most kLeafSize corners.
   struct Node {
     double low_u = 0, low_v = 0, high_u = 0, high_v = 0;
-    std::uint32_t left = 0;  // number of corners that were not removed
+    std::uint32_t left = 0;  // number of corners that have not been removed
   };
   struct Range {
     std::uint32_t node, first, count;

@@ -8,7 +8,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// The corners of a polygon that are left, as a ring.
+// The corners of a polygon that have not been clipped, as a ring.
 class CornerRing {
  public:
   explicit CornerRing(std::size_t size) : before_(size), after_(size) {
@@ -34,8 +34,8 @@ bool is_convex_at(std::span<const FlatCorner> polygon, const CornerRing& ring,
          0;
 }
 
-// Returns the corners that may lie in a triangle of other corners: if any corner does, then one of
-// these does.
+// Returns the corners that are not convex. If any corner of the ring lies in the triangle of three
+// others, then a corner that is not convex does.
 std::vector<std::uint32_t> corners_not_convex(std::span<const FlatCorner> polygon,
                                               const CornerRing& ring) {
   std::vector<std::uint32_t> corners;
@@ -59,7 +59,7 @@ class EarClipper {
   }
 
   std::uint64_t clip_all() {
-    std::uint32_t rest = 0;  // a corner that is left
+    std::uint32_t rest = 0;  // a corner that has not been clipped
     while (left_ > 3) {
       const std::vector<std::uint32_t> pass = std::exchange(next_pass_, {});
       for (const std::uint32_t corner : pass)
@@ -99,15 +99,16 @@ class EarClipper {
     return after;
   }
 
-  static constexpr std::uint64_t kMostSteps = 64;  // per n log2 n
+  // limit for the number of steps, in multiples of n log2 n
+  static constexpr std::uint64_t kMostSteps = 64;
 
   std::span<const FlatCorner> polygon_;
   std::vector<Triangle>& triangles_;
-  std::size_t left_;  // number of corners
+  std::size_t left_;  // number of corners that have not been clipped
   CornerRing ring_;
   CornerTree tree_;          // the corners that are not convex
   std::vector<bool> waits_;  // whether a corner is in next_pass_
-  // Clipping an ear can turn only its neighbours into ears, so only these are tested again.
+  // Corners to test in the next pass: clipping an ear can turn only its two neighbours into ears.
   std::vector<std::uint32_t> next_pass_;
   std::uint64_t tests_ = 0;
 };

@@ -33,8 +33,8 @@ void FaceList::use_material(std::uint16_t material) {
     runs_.back() = run;
     return;
   }
-  // Grows by an eighth. If every face began a new run, doubling would take more memory than all
-  // vertices.
+  // Grows the capacity by an eighth only: if every face began a new run, doubling would take more
+  // memory than all vertices.
   if (runs_.size() == runs_.capacity()) runs_.reserve(runs_.size() + runs_.size() / 8 + 4);
   runs_.push_back(run);
 }

@@ -55,8 +55,9 @@ class FaceList {
   void reserve_for_polygons();
   std::vector<std::uint16_t> expanded_runs() const;
 
-  std::vector<std::uint32_t> polygon_corners_;           // corners of all polygons
-  std::vector<TextureCoordinates> polygon_coordinates_;  // per polygon_corners_ entry, or empty
+  std::vector<std::uint32_t> polygon_corners_;  // corners of all polygons
+  // one per entry of polygon_corners_, or empty
+  std::vector<TextureCoordinates> polygon_coordinates_;
   std::vector<std::size_t> polygon_ends_;  // per polygon: end index in polygon_corners_
   std::vector<MaterialRun> runs_;          // in ascending order; empty if all materials are 0
   std::vector<std::uint16_t> materials_;   // per triangle; empty if all are 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Applies changes of a mesh's faces to the mesh's texturing as well.
+// Changes a mesh's texturing to match changes of the mesh's faces.
 #pragma once
 
 #include <cstdint>

@@ -124,8 +124,8 @@ class SharedFans {
     members_.push_back(f);
   }
 
-  // Returns the half-edge opposite to corner k. It is the twin of the partner's half-edge, or else
-  // belongs to a new edge.
+  // Returns the half-edge opposite to corner k of face f. It is the twin of the partner's half-edge
+  // if that exists; otherwise it belongs to a new edge.
   HalfedgeHandle half_edge(std::uint32_t f, std::uint32_t k) {
     const std::uint32_t partner = across_[3 * f + k];
     if (partner != kNoPartner && partner < 3 * f) {

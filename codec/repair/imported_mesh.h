@@ -13,9 +13,9 @@ namespace vitrine::inline codec {
 // The mesh of a file, with polygons cut into triangles. Every index is in range. Positions used by
 // faces are finite. The mesh need not be a manifold (see repair.h).
 struct ImportedMesh {
-  TriangleMesh mesh;                 // in model units
+  TriangleMesh mesh;                 // positions in model units
   std::string unit;                  // a name in kLengthUnits, or empty if unknown
-  std::vector<std::string> repairs;  // one line for each kind of removal or change
+  std::vector<std::string> repairs;  // one line for each kind of change made by the reader
   Texturing texturing;  // texturing of `mesh`; its pictures also determine the vertex colours
 };
 

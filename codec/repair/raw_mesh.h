@@ -74,7 +74,7 @@ class RawMesh {
 
   FaceList faces_;
   std::uint64_t face_count_ = 0;
-  // Number of faces with fewer than three corners, and the first one.
+  // Number of faces with fewer than three corners, and the index of the first such face.
   std::uint64_t small_faces_ = 0, first_small_face_ = 0;
   std::uint32_t max_index_ = 0;
   std::uint64_t max_index_face_ = 0, max_index_line_ = 0;

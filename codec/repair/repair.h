@@ -17,13 +17,13 @@ struct RepairedMesh {
   // The repairs made during import, then one line for each kind of repair made here.
   std::vector<std::string> repairs;
   std::uint64_t boundary_edges = 0;
-  std::uint64_t components = 0;  // faces that share a vertex are connected
+  std::uint64_t components = 0;  // number of components; faces that share a vertex are connected
   Texturing texturing;           // texturing of `mesh`
 };
 
 // Repairs a mesh in these steps:
 // - Faces that repeat a vertex are removed.
-// - Of duplicate faces (same vertices in the same cyclic order), only the first is kept.
+// - Duplicates of an earlier face (same vertices in the same cyclic order) are removed.
 // - Each connected patch gets the orientation of the majority of its faces.
 // - At an edge with three or more faces, the faces are paired by angle. This separates solids that
 //   touch at the edge. Two opposed faces on the same vertices become two separate sheets.

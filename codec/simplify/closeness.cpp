@@ -23,7 +23,7 @@ struct StarGeometry {
   boost::container::static_vector<Vec3, Star::kCapacity> point;
 };
 
-// The faces around an edge: those before its collapse, or those after it.
+// The faces around an edge, either before its collapse or after it.
 class Patch {
  public:
   // The faces between the point `centre` and a ring. Faces with the vertex `without` or a virtual
@@ -91,9 +91,9 @@ class Patch {
 };
 
 // Whether two patches with the same boundary lie in a thin slab and all their faces point to the
-// same side. If so, both patches cover each point of the slab's plane equally often: as often as
-// their boundary winds around the point. Each patch therefore lies straight above or below the
-// other.
+// same side. If so, both patches cover each point of the slab's plane equally often, namely as
+// often as their common boundary winds around the point. Each patch therefore lies straight above
+// or below the other.
 bool share_slab(const Patch& one, const Patch& other, double thickness) {
   Vec3 normal;
   for (const TrianglePoints& t : one.faces())
@@ -103,7 +103,7 @@ bool share_slab(const Patch& one, const Patch& other, double thickness) {
   for (const Patch* patch : {&one, &other}) {
     for (const TrianglePoints& t : patch->faces()) {
       if (dot(normal_of(t), normal) <= 0) return false;
-      // t.c is skipped, because it is t.b of another face of the patch.
+      // t.c needs no check of its own, because it is t.b of another face of the patch.
       for (const Vec3& p : {t.a, t.b}) {
         const double height = dot(p - origin, normal);
         low = std::min(low, height), high = std::max(high, height);
@@ -119,7 +119,8 @@ bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& targe
   const Vec3 p1 = surface.point(edge.v1), p2 = surface.point(edge.v2), to = surface.middle(target);
   const StarGeometry ring1(surface, edge.star1), ring2(surface, edge.star2);
   Patch after({ring1, to, edge.v2}, {ring2, to, edge.v1});
-  // The two faces at the edge belong to the first fan, so the second fan leaves them out.
+  // The two faces at the edge belong to the first fan. The second fan leaves them out, so that they
+  // are not counted twice.
   Patch before({ring1, p1, edge.v1}, {ring2, p2, edge.v1});
   if (after.faces().empty()) return false;
   const bool inside = !edge.star1.is_on_border && !edge.star2.is_on_border;
@@ -127,7 +128,7 @@ bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& targe
   const double squared = reach * reach;
   if (!after.is_near(p1, squared) || !after.is_near(p2, squared)) return false;
   // If an end of the edge moves by at most 2 * reach, the midpoints of its edges move by at most
-  // `reach`. In that case, they need no check.
+  // `reach`, so they need no check.
   const auto move = [&](const Patch::Fan& from, std::uint32_t fan, VertexId other) {
     return length(to - from.centre) <= 2 * reach ||
            (after.has_near(from, fan, squared) &&

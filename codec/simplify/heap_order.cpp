@@ -16,14 +16,14 @@ struct EdgeCost {
   VertexId a, b;        // a < b
   std::uint32_t stamp;  // sum of the stamps of a and b when the cost was computed
 
-  // Reversed, because std::priority_queue pops the largest element first.
+  // Compares in reverse, because std::priority_queue pops the largest element first.
   bool operator<(const EdgeCost& o) const {
     return std::tie(o.cost, o.a, o.b) < std::tie(cost, a, b);
   }
 };
 
-// Computes the level of each collapse. A collapse depends on all vertices of both one-rings. It
-// changes v1 and v2.
+// Computes the level of each collapse. A collapse reads all vertices of the one-rings of v1 and v2,
+// and changes v1 and v2.
 class Dependencies {
  public:
   explicit Dependencies(std::size_t vertices) : changed_(vertices), met_(vertices) {}
@@ -46,7 +46,7 @@ class Dependencies {
   static void for_each_met(const EdgeStar& edge, const Visit& visit) {
     for (const Star* star : {&edge.star1, &edge.star2}) {
       for (VertexId v : star->neighbours()) {
-        if (!is_virtual(v)) visit(v);  // v1 and v2 are among the neighbours
+        if (!is_virtual(v)) visit(v);  // v1 and v2 are visited, too, as neighbours of each other
       }
     }
   }

@@ -17,8 +17,8 @@ namespace vitrine::inline codec {
 // earlier collapses on which it depends, and that contains no collapse to the same position.
 //
 // Returns at most `most_levels` levels, from fine to coarse. Each level is in ascending order of
-// v~, without duplicates. Only the placement and the bounds of `rules` are used. The parity follows
-// from the number of the level. There is only one region.
+// v~, without duplicates. Uses only the placement and the bounding box of `rules`. The parity
+// follows from the number of the level. The whole mesh is one region.
 std::vector<CollapseLevel> collapse_by_heap(Surface& surface, const LevelRules& rules,
                                             std::uint32_t target_vertices,
                                             std::uint32_t most_levels);

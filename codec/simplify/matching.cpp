@@ -56,8 +56,8 @@ const std::vector<Pick>& CollapseMatcher::match(const LevelRules& rules) {
   choose(rules, {edges_.data(), cheap}, rules.most);
   const std::size_t enough = std::min<std::size_t>(rules.most, surface_.live.size() / 5);
   if (picks_.size() < enough) {
-    // On a rough surface, few edges pass. All edges are therefore tried again with the larger
-    // limit.
+    // On a rough surface, few edges pass the check. All edges are therefore tried again with the
+    // larger limit kReach.
     reach_ = mean_edge_ * kReach;
     choose(rules, edges_, enough);
   }
@@ -163,9 +163,9 @@ Vec3 CollapseMatcher::likely_target(const LevelRules& rules, Corner c) const {
   return middle + near * (1.0 / (4 * m)) - far * (1.0 / (4 * (both - shared)));
 }
 
-// Several threads check edges ahead of their turns. The result does not depend on that, because a
-// check reads only the mesh, which does not change here. A thread alone checks each edge in its
-// turn, so that it checks no edge in vain.
+// Several threads check edges before it is their turn to be chosen. The result does not depend on
+// this, because a check reads only the mesh, which does not change here. A single thread instead
+// checks each edge when its turn comes, which avoids checks of edges that are no longer available.
 void CollapseMatcher::choose(const LevelRules& rules, std::span<const KeyedIndex> edges,
                              std::size_t enough) {
   const std::size_t most = threads_ == 1 ? 1 : kChecked;

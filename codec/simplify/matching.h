@@ -23,7 +23,8 @@ struct LevelRules {
   // Weight of the squared edge length in the cost. The mean squared distance from the planes has
   // the weight 1.
   double length_weight = 0;
-  // Whether the level allows more collapses but requires that they stay closer to the surface.
+  // Whether the level may have more collapses (kCheapRegular instead of kCheap), which must stay
+  // closer to the surface (kReachRegular instead of kReach).
   bool is_regular = false;
   std::uint32_t most = 0xFFFFFFFF;  // maximum number of collapses
   Vec3i low, high;                  // merged vertices must lie in this box, corners included

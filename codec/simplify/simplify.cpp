@@ -76,7 +76,7 @@ class Simplifier {
     return surface_.live.size() <= options_.target_vertices + options_.target_vertices / 4;
   }
 
-  // This function and those below order levels from fine to coarse.
+  // run_batches() and the functions below it order levels from fine to coarse.
   std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
     // The format requires that the coarsest level has only one region. If the last regions are
@@ -160,7 +160,7 @@ class Simplifier {
   }
 
   void join_regions(std::uint32_t from_finest, bool in_one) {
-    // The regions of the finest level are always the leaves, which are not joined.
+    // The finest level has all leaves as regions: nothing is joined for it.
     const bool join_all = in_one && from_finest > 0;
     regions_.join(surface_.live, join_all ? UINT32_MAX : options_.region_vertices, surface_.region);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses small components that are removed between the fine mesh and the base mesh. A level omits
-// the components that are smaller than its error. A level omits more of them if the base mesh would
-// otherwise have too many vertices.
+// the components that are smaller than its error. A level omits more components if the base mesh
+// would otherwise have too many vertices.
 #pragma once
 
 #include <cstdint>

@@ -106,7 +106,8 @@ Expected<void> BrowserModel::start(BaseMesh base, std::span<const std::uint8_t> 
   }
   base_ = std::move(base);
   if (auto started = restart(); !started) return started;
-  // Takes the refiner's positions, because the positions in `base_` are cell numbers.
+  // Uses the refiner's positions, because those in `base_` are cell numbers instead of lattice
+  // units.
   centre_ = box_centre(refiner_->positions());
   return {};
 }

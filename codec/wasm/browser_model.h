@@ -36,8 +36,8 @@ class BrowserModel {
   Expected<void> check_picture(std::size_t picture, std::span<const std::uint8_t> bytes) const;
 
   // Starts at the base mesh. `atlas` holds the coded texture coordinates of the base mesh, and is
-  // empty if the model has no texture. Keeps both, because a coarser state is reached by a restart
-  // from the base mesh.
+  // empty if the model has no texture. Keeps copies of both, because a coarser state can only be
+  // reached by restarting from the base mesh.
   Expected<void> start(BaseMesh base, std::span<const std::uint8_t> atlas = {});
 
   // Sets the detail target. Call this after start(). If the surface is finer than the target,
@@ -70,8 +70,8 @@ class BrowserModel {
   const std::vector<std::array<std::int16_t, 4>>& normals() const { return normals_; }
   const VertexAttributes& attributes() const { return attributes_; }
   const std::vector<Vec3i>& lattice_positions() const { return lattice_positions_; }
-  // From (0, 0) in the upper left corner of the pictures to (1, 1) in the lower right corner. Empty
-  // if the model has no texture.
+  // Texture coordinates of the displayed vertices, from (0, 0) in the upper left corner of the
+  // pictures to (1, 1) in the lower right corner. Empty if the model has no texture.
   const std::vector<std::array<float, 2>>& coordinates() const { return coordinates_; }
   const std::vector<Triangle>& faces() const { return faces_; }
 
@@ -98,7 +98,7 @@ class BrowserModel {
 
   std::shared_ptr<const Manifest> manifest_;
   BaseMesh base_;
-  Vec3 centre_;  // centre of the base mesh's bounding box, lattice units
+  Vec3 centre_;  // centre of the base mesh's bounding box, in lattice units
   std::optional<Refiner> refiner_;
   std::optional<Planner> planner_;
   std::optional<std::uint32_t> triangles_;  // set if the detail target is a number of triangles

@@ -21,10 +21,13 @@ struct RouteDoc {
   std::string_view id = {};          // unique operationId; empty if the route is not documented
   std::string_view summary = {};     // one or two sentences
   std::string_view parameters = {};  // names of query and header parameters, separated by spaces
-  std::string_view request = {};     // schema or media type of the request body; empty if none
-  unsigned status = 200;             // HTTP status on success
-  std::string_view response = {};    // schema or media type of the response body; empty if none
-  bool may_be_gzip = false;          // whether a client without a token may get gzip
+  // schema or media type of the request body; empty if there is no body
+  std::string_view request = {};
+  unsigned status = 200;  // HTTP status on success
+  // schema or media type of the response body; empty if there is no body
+  std::string_view response = {};
+  // whether a client without a token may receive the response compressed by gzip
+  bool may_be_gzip = false;
 };
 
 // A route of the API. `doc` documents it in the OpenAPI document. The other members mean the same

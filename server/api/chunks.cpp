@@ -25,8 +25,8 @@ Response model_chunk(const std::shared_ptr<const PublishedModel>& model, const R
 
 }  // namespace
 
-// Serves most chunk requests. Looks for the chunk only among the models in memory, and returns
-// nullopt if it is not there. The chunk's bytes are sent from the page cache.
+// Serves most chunk requests. Looks for the chunk only in the models that are open in memory, and
+// returns nullopt if none has it. The chunk's bytes come from the kernel's page cache.
 static std::optional<Response> show_cached_chunk(const Request& request, Services& services) {
   const auto chunk = services.models.cached_chunk(sha256_in(request));
   if (!chunk) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the schemas and parameters of the OpenAPI document that several nouns of the API use.
+// Defines the schemas and parameters of the OpenAPI document that several resources of the API use.
 #include "server/api/routes.h"
 
 namespace vitrine::server {

@@ -22,8 +22,9 @@ struct DecodedModel {
 
 // Returns the mesh of the model at the level of detail `want`, in model units and with the display
 // filter applied. `texture_side` is the largest side of the pictures in pixels, and `roles` are the
-// roles of the pictures, as in pictures_to_export(); 0 or no role: no texture. Decodes in this
-// process, without a sandbox, since the file was checked when it was published.
+// roles of the pictures, as in pictures_to_export(). The mesh gets no texture if `texture_side` is
+// 0 or `roles` is empty. Decodes in this process, without a sandbox, since the file was checked
+// when it was published.
 Expected<DecodedModel> decoded_model(const PublishedModel& model, const Want& want,
                                      std::optional<std::uint32_t> texture_side,
                                      PictureRoles roles = PictureRoles().set());

@@ -118,7 +118,8 @@ DetailForecast forecast_of(const Want& want, const Manifest& manifest) {
   DetailForecast forecast{.level = whole ? finest : manifest.chunks[missing].level - 1,
                           .triangles = whole ? manifest.levels[finest].faces : planner.faces_held(),
                           .bytes = planner.bytes_held()};
-  // For WantTriangles, the mesh uses only as much of the last chunk as the triangle limit allows.
+  // For WantTriangles, the mesh uses only as many splits of the last chunk as the triangle limit
+  // allows.
   if (const auto* w = std::get_if<WantTriangles>(&want)) {
     while (forecast.level > 0 && manifest.levels[forecast.level].faces > w->triangles)
       --forecast.level;

@@ -35,9 +35,9 @@ tl::expected<DetailRequest, ParameterFault> read_detail_request(
 
 bool saves_data(const RequestHeader& header);
 
-// Returns a key under which the result of `want` can be cached. Equal requests have equal keys,
-// however they are written. All requests for more triangles than the model has share one key, and
-// so do all requests for more bytes than it has.
+// Returns a key under which the result of `want` can be cached. Equal detail requests have equal
+// keys, even if their query texts differ. All requests for more triangles than the model has share
+// one key. So do all requests for more bytes than the model has.
 std::string key_of(const Want& want, const Manifest& manifest);
 
 // The result of a detail request, estimated from the manifest without decoding.

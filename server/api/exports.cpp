@@ -22,8 +22,8 @@ namespace {
 
 using TextureSide = std::optional<std::uint32_t>;
 
-// Returns the roles of the pictures in an export. A format with companions has pictures in a zip
-// only.
+// Returns the roles of the pictures in an export. If the format stores pictures in companion files,
+// only the zip export has pictures.
 PictureRoles roles_of(ExportKind kind) {
   return kind.is_zip || !has_companions(kind.format) ? roles_in(kind.format) : PictureRoles();
 }
@@ -33,13 +33,13 @@ bool is_text(ExportKind kind) {
   return !kind.is_zip && (kind.format == MeshFormat::kObj || kind.format == MeshFormat::kVrml);
 }
 
-// An export that a client asks for.
+// An export as a client requests it.
 struct ExportOrder {
   ExportKind kind;
   Want want;
   TextureSide texture_side;
   ExportChoices choices;
-  FileDescription about;  // without level and error
+  FileDescription about;  // `level` and `error` are not set
 };
 
 Expected<std::vector<std::uint8_t>> make_export(const PublishedModel& model, ExportOrder order) {
@@ -92,7 +92,8 @@ FileDescription description_of(const ModelRecord& record, const std::string& ori
           .source = fmt::format("{}/models/{}", origin, record.id.to_string())};
 }
 
-// Returns the export as a gzip file. `plain` is the export, or null if the cache does not have it.
+// Returns the export compressed by gzip. `plain` is the uncompressed export, or null if it is not
+// in the cache.
 Expected<std::vector<std::uint8_t>> make_compressed(const ExportCache::File& plain,
                                                     const PublishedModel& model,
                                                     const ExportOrder& order) {
@@ -100,7 +101,7 @@ Expected<std::vector<std::uint8_t>> make_compressed(const ExportCache::File& pla
   return make_export(model, order).map(gzip);
 }
 
-// Returns the part of a cache key for what the file says and how it is placed.
+// Returns the part of a cache key that covers the file's statements and the placement of the mesh.
 std::string key_of(const ExportOrder& order) {
   std::string texts;
   const FileDescription& about = order.about;
@@ -113,7 +114,8 @@ std::string key_of(const ExportOrder& order) {
                      name_of(order.choices.up), static_cast<int>(order.choices.compression));
 }
 
-// Returns the texture's part of a cache key. Sizes that choose the same pictures share it.
+// Returns the part of a cache key that covers the texture. Texture sizes that select the same
+// pictures give the same key.
 std::string key_of(TextureSide side, ExportKind kind, const Manifest& manifest) {
   if (!side) return "fitting";
   return fmt::format("{}", fmt::join(pictures_to_export(manifest, 0, side, roles_of(kind)), ","));

@@ -16,10 +16,10 @@ namespace {
 
 constexpr const char* kForwardedField = "Vitrine-Passed-On";
 constexpr std::size_t kMostBytes = 64 << 20;  // largest accepted response in bytes
-// Short, since the daemons are on one local network.
+// The timeout is short because the daemons are on one local network.
 constexpr std::chrono::seconds kConnectTimeout{3};
 constexpr std::chrono::seconds kQuickTimeout{5};
-// Long enough for the turntable to finish a motion before the other daemon responds.
+// The timeout allows the turntable to finish a motion before the other daemon responds.
 constexpr std::chrono::seconds kRevolutionTimeout{60};
 
 std::vector<std::string> fields_of(const Request& request) {
@@ -35,8 +35,8 @@ std::vector<std::string> fields_of(const Request& request) {
   return fields;
 }
 
-// Returns the method for the forwarded request. HEAD is forwarded as GET; the session then omits
-// the body from the response.
+// Returns the method for the forwarded request. Forwards HEAD as GET; the session later omits the
+// body of the response.
 std::string method_to_ask(const Request& request) {
   const bool is_head = request.header.method() == beast::http::verb::head;
   return is_head ? "GET" : std::string(request.header.method_string());
@@ -118,7 +118,8 @@ std::vector<nlohmann::ordered_json> ask_daemons(std::span<const DaemonQuery> que
     const auto* const text = std::get_if<std::string>(&answer.body);
     return answer.status == 200 && text != nullptr ? object_in(*text) : nullptr;
   };
-  // One pass of the admission limit covers all queries, since only this worker waits for them.
+  // One pass of the admission limit is enough for all queries, because only one worker waits for
+  // them.
   const auto pass = pass_for(request, services);
   if (!pass) return std::vector<nlohmann::ordered_json>(queries.size());
   std::vector<std::future<nlohmann::ordered_json>> asked;

@@ -137,7 +137,7 @@ Json description(const ModelRecord& record, const std::string& origin, std::stri
   return json;
 }
 
-// Returns a scene that shows the model. A GLB is in metres, if the model's unit is known.
+// Returns a scene that shows the model. The GLB's unit is the metre if the model's unit is known.
 Json scene(const std::string& self, const std::string& model, const ModelRecord& record) {
   const std::string id = self + "/scene";
   Json annotation = {{"id", id + "/model/annotation"},

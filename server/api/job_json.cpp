@@ -59,8 +59,8 @@ Json rows_json(const std::optional<ScannedRows>& rows) {
   return {{"empty", rows->empty}, {"saturated", rows->saturated}, {"doubled", rows->doubled}};
 }
 
-// Returns the state of a laser or a motor, and the time since which it has been in that state. The
-// time is null if the state has never been known.
+// Returns the state of a laser or a motor, and when it entered that state. The time is null if the
+// state has never been known.
 Json power_json(std::string_view state, acquisition::BoardPower::Clock::time_point since) {
   const auto milliseconds =
       std::chrono::duration_cast<std::chrono::milliseconds>(since.time_since_epoch()).count();
@@ -145,7 +145,7 @@ Response json_answer(const Json& json, unsigned status) {
   Response response;
   response.status = status;
   response.type = "application/json";
-  // The JSON may contain text from a device, so invalid UTF-8 is replaced.
+  // Replaces invalid UTF-8, because the JSON may contain text from a device.
   response.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return response;
 }

@@ -55,13 +55,13 @@ tl::expected<PageOf<Id>, std::vector<ParameterFault>> read_page(const Query& que
 template <class Id>
 tl::expected<PageOf<Id>, Response> read_page(const Request& request);
 
-// Adds the link to the next page of the list that the request asks for (RFC 8288), if `cursor`, the
-// last ID of this page, is set.
+// If `cursor`, the last ID of this page, is set, adds a Link field with the next page of the
+// requested list (RFC 8288).
 void link_next(const std::optional<std::string>& cursor, const Request& request,
                Response& response);
 
-// Returns one page of a list as JSON: the items under `name`, and under "next" the cursor of the
-// next page, or null. A Link field names the next page as well.
+// Returns one page of a list as JSON: the items under `name`, and the cursor of the next page, or
+// null, under "next". Also adds a Link field with the next page.
 Response list_answer(std::string_view name, nlohmann::ordered_json items,
                      const std::optional<std::string>& cursor, const Request& request);
 

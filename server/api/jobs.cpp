@@ -13,15 +13,16 @@
 namespace vitrine::server {
 namespace {
 
-// Returns the ID of the event that tells of this status. All events of an ended job have the same.
+// Returns the ID of the event that reports this status. If the job has ended, all its events have
+// the same ID.
 std::string event_id(const JobStatus& job) {
   const std::string_view state = kJobStates[static_cast<std::size_t>(job.record.state)];
   return has_ended(job.record.state) ? std::string(state)
                                      : fmt::format("{}-{:.3f}", state, job.record.progress);
 }
 
-// Whether the client has received the last event of the job, and connects again only because the
-// stream ended.
+// Whether the client has already received the last event of the job. Such a client has reconnected
+// only because its stream ended.
 bool knows_the_end(const JobStatus& job, const Request& request) {
   return has_ended(job.record.state) && request.header["Last-Event-ID"] == event_id(job);
 }
@@ -58,7 +59,8 @@ Response with_job(const Request& request, Services& services, Answer&& answer) {
   if (*job && request.caller) return for_caller(answer(**job));
   if (*job && is_visible((*job)->record, services.scans, services.models))
     return answer(without_reasons(**job));
-  if (!request.caller) return token_needed(request);  // 401, which does not reveal which jobs exist
+  // Responds with 401 instead of 404, so that the response does not reveal which jobs exist.
+  if (!request.caller) return token_needed(request);
   return problem(404, "there is no such job", request.id);
 }
 
@@ -98,7 +100,8 @@ static Response cancel_job(const Request& request, Services& services) {
   return with_own_job(request, services, [&](const JobStatus& job) {
     const auto cancelled = services.scans.jobs().cancel(job.record.id);
     if (!cancelled) return refused(cancelled.error(), request, services);
-    return json_answer(job_json(*cancelled), 202);  // 202, since the job ends only at its next step
+    // Responds with 202 (Accepted), because the job ends only at its next step.
+    return json_answer(job_json(*cancelled), 202);
   });
 }
 
@@ -111,14 +114,14 @@ static Response resume_job(const Request& request, Services& services) {
 }
 
 Response show_job_events(const Request& request, Services& services) {
-  // Watches the job before reading its state. Otherwise the job could end unnoticed between the two
-  // steps.
+  // Starts to watch the job before it reads the job's state. Otherwise a change between the two
+  // steps would be missed.
   const auto run = services.scans.jobs().watch(id_in<JobId>(request));
   if (!run) return internal_error(run.error(), request, services);
   return with_job(request, services, [&](const JobStatus& job) {
     Response response;
     if (knows_the_end(job, request)) {
-      response.status = 204;  // ends the reconnection of an EventSource (HTML, section 9.2)
+      response.status = 204;  // makes an EventSource stop reconnecting (HTML, section 9.2)
       return response;
     }
     response.type = "text/event-stream";

@@ -82,13 +82,13 @@ std::string structured_data(const ModelRecord& model, const ModelLinks& links) {
                       {"contentUrl", links.api + "/export.glb"},
                       {"encodingFormat", "model/gltf-binary"}};
   std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  // "</script>" in a text would end the element.
+  // Escapes "<", because "</script>" in a text would end the element.
   for (std::size_t at = 0; (at = text.find('<', at)) != text.npos;)
     text.replace(at, 1, "\\u003c");
   return "<script type=\"application/ld+json\">" + text + "</script>\n";
 }
 
-// The facts of a model's page, in the order of web/src/ui/about.ts.
+// The labels of the facts on a model's page, in the same order as in web/src/ui/about.ts.
 constexpr std::pair<const char*, const char*> kElements[] = {{"date", "Date"},
                                                              {"subject", "Subject"},
                                                              {"coverage", "Place and period"},
@@ -141,7 +141,7 @@ std::string about(const ModelRecord& model) {
                      text, facts(model));
 }
 
-// Returns the poster, which browsers with JavaScript do not load.
+// Returns HTML with the poster. Browsers with JavaScript do not load this poster.
 std::string poster(const ModelRecord& model) {
   return fmt::format(
       "<noscript><img src=\"/api/v1/models/{}/poster.png?width={}\" width=\"{}\" height=\"{}\" "
@@ -181,7 +181,7 @@ std::optional<std::string> rights_url(std::string_view licence) {
   constexpr std::string_view kSite = "http://creativecommons.org/";
   if (licence == "CC0-1.0") return std::string(kSite) + "publicdomain/zero/1.0/";
   if (licence == "CC-PDM-1.0") return std::string(kSite) + "publicdomain/mark/1.0/";
-  // The terms and the version of an identifier such as CC-BY-NC-SA-4.0.
+  // Matches an identifier such as CC-BY-NC-SA-4.0. The groups are its terms and its version.
   const std::regex identifier("CC-(BY(?:-NC)?(?:-SA|-ND)?)-([1-4]\\.[05])");
   std::match_results<std::string_view::const_iterator> found;
   if (!std::regex_match(licence.begin(), licence.end(), found, identifier)) return std::nullopt;

@@ -112,7 +112,7 @@ Json place(std::uint64_t offset, std::uint64_t length, const Sha256& sha256) {
   return {{"offset", offset}, {"length", length}, {"sha256", to_hex(sha256)}};
 }
 
-// Returns null if the model has no originals or hides them.
+// Returns the originals' blocks, or null if the model has no originals or hides them.
 Json originals(const Manifest& manifest) {
   Json source, pictures = Json::array();
   for (const OptionalBlock& block : manifest.optional_blocks) {
@@ -126,7 +126,7 @@ Json originals(const Manifest& manifest) {
   return {{"description", std::move(source)}, {"pictures", std::move(pictures)}};
 }
 
-// Returns null if the model has no texture.
+// Returns the texture's description, or null if the model has no texture.
 Json texture(const TextureInfo& info) {
   if (info.empty()) return nullptr;
   Json pictures = Json::array();

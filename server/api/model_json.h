@@ -17,8 +17,8 @@ std::string model_json(const ModelRecord& record, bool counts_visits);
 // Returns the entity tag of the text of model_json(). The tag changes with every change of the
 // model or of its file.
 std::string model_tag(const ModelRecord& record, bool counts_visits);
-// Formats one page of the list of models. If `whole` is false, shows each model as clients without
-// a token see it.
+// Formats one page of the list of models. If `whole` is false, shows only the parts of each model
+// that clients without a token may see.
 std::string model_page_json(const ModelPage& page, bool whole, bool counts_visits);
 
 // Formats the manifest. If there is a detail request, adds its expected result as `expect`.

@@ -39,7 +39,7 @@ FieldFaults check(const ModelOrder& order, const Uploading<Upload>& upload, cons
   return faults;
 }
 
-// Whether an upload may exist, although it cannot be read now.
+// Whether an upload may exist but cannot be read at the moment.
 bool is_unreadable(const Uploading<Upload>& upload) {
   return !upload && upload.error().cause != UploadFault::kGone;
 }
@@ -78,13 +78,13 @@ std::optional<Response> refuse_state(const ModelRecord& model, const Request& re
   return model_has_changed(request);
 }
 
-// Returns the response to a failed change or removal. Returns 412 if the request has If-Match and
-// another request has changed the model since the check.
 // Returns the hash of the file that visitors see, or would see if the model were published.
 const Sha256& public_file(const ModelRecord& model) {
   return model.public_part ? model.public_part->file : model.file;
 }
 
+// Returns the response to a failed change or removal: 412 if the request has If-Match and another
+// request has changed the model since the check, otherwise refused().
 Response refused_change(const Error& error, const ModelRecord& before, const Request& request,
                         Services& services) {
   const auto now = services.catalogue.find(before.id);
@@ -122,8 +122,8 @@ void read_accuracy(Fields& fields, const nlohmann::json& body, std::optional<dou
   fields.real("accuracy", 0, kMostAccuracy, accuracy);
 }
 
-// Reads `public_max_level`, the finest level that is public; null makes all levels public. A number
-// beyond the finest level means the level that is finest now.
+// Reads `public_max_level`, the finest public level. Null makes all levels public. A number beyond
+// the finest level is replaced by the finest level that the model has now.
 void read_public_level(Fields& fields, const nlohmann::json& body,
                        std::optional<PublicPart>& part) {
   constexpr int kMostLevels = 255;
@@ -135,8 +135,8 @@ void read_public_level(Fields& fields, const nlohmann::json& body,
   part = PublicPart{.max_level = static_cast<std::uint32_t>(level)};
 }
 
-// Returns the record with the changes in the body applied. The body may contain texts directly, as
-// the response to GET does, or in "metadata", as POST does.
+// Returns the record with the changes in the body applied. Texts may be members of the body itself,
+// as in responses to GET, or of its member "metadata", as in requests with POST.
 tl::expected<ModelRecord, FieldFaults> changed(const ModelRecord& before,
                                                const nlohmann::json& body) {
   FieldFaults faults;
@@ -173,8 +173,8 @@ static Response make_model(const Request& request, Services& services) {
   auto& jobs = services.scans.jobs();
   const auto begun = jobs.begun_by(*once);
   if (!begun) return refused_job(begun.error(), request, services);
-  // Looks for the key before check(), because the upload of a job that has begun may no longer
-  // exist.
+  // Looks for the idempotency key before it calls check(): if the job has already begun, its upload
+  // may no longer exist, and check() would fail.
   if (*begun) return accepted(**begun);
   const auto held = services.uploads.hold();
   const auto upload = services.uploads.find(order->upload);

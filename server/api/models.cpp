@@ -255,7 +255,7 @@ static constexpr ApiRoute kModelRoutes[] = {
              .parameters = "q limit cursor drafts",
              .response = "ModelPage",
              .may_be_gzip = true}},
-    // These routes need no token, but with a token the handlers also show drafts.
+    // The routes below need no token, but for a caller with a token the handlers also show drafts.
     {.method = Method::kGet,
      .path = "/api/v1/models/{id}",
      .handler = show_model,

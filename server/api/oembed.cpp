@@ -72,7 +72,7 @@ static Response show_oembed(const Request& request, Services& services) {
   const auto query = Query::parse(request.query);
   if (!query) return problem(400, "the query is malformed", request.id);
   if (query->get("format").value_or("json") != "json")
-    return problem(501, "", request.id);  // oEmbed requires 501 for an unsupported format
+    return problem(501, "", request.id);  // oEmbed demands 501 for an unsupported format
   Room room;
   if (const auto fault = read_room(*query, room))
     return problem(400, "a parameter is out of range", request.id, {*fault});

@@ -56,7 +56,7 @@ static Response show_docs(const Request& request, Services& services) {
   return page("/docs.html", request, services);
 }
 
-// The page is the same for every ID, so that only the API reveals which scans exist.
+// Returns the same page for every ID. Whether a scan exists can be learned only from the API.
 static Response show_scan_page(const Request& request, Services& services) {
   return page("/scan.html", request, services);
 }
@@ -69,7 +69,7 @@ Response show_asset(const Request& request, Services& services) {
   return page(request.path, request, services);
 }
 
-// Tells search engines to index the collection and its models, but not what needs a token.
+// Tells search engines to index the collection and its models, but no pages that need a token.
 static Response show_robots(const Request& request, Services& services) {
   return revalidated("text/plain; charset=utf-8",
                      fmt::format("User-agent: *\nDisallow: /console\nDisallow: /scans/\n"
@@ -91,7 +91,7 @@ static Response show_sitemap(const Request& request, Services& services) {
   return revalidated("application/xml", xml + "</urlset>\n");
 }
 
-// Browsers ask for this path on their own.
+// Browsers request this path even if no page links to it.
 static Response show_favicon(const Request& request, Services& services) {
   return page("/favicon.svg", request, services);
 }

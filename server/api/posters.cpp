@@ -27,9 +27,10 @@ std::optional<unsigned> read_width(const Query& query) {
   return width == std::end(kPosterWidths) ? std::nullopt : std::optional(*width);
 }
 
-// Renders the model in the viewer's first view, with one triangle per two pixels. The model covers
-// about half of the picture and hides half of its own triangles, so further triangles would not be
-// visible. A texture has up to four pixels per pixel of the poster, as its charts leave gaps.
+// Renders the model from the viewer's initial viewpoint, with one triangle per two pixels. The
+// model covers about half of the picture and hides half of its own triangles, so more triangles
+// would not be visible. The texture has up to four pixels per pixel of the poster, because parts of
+// it are gaps between charts.
 Expected<std::vector<std::uint8_t>> make_poster(const PublishedModel& model, unsigned width) {
   const auto decoded =
       decoded_model(model, WantTriangles{std::uint64_t{width} * width / 2}, 2 * width);

@@ -35,8 +35,8 @@ inline FieldFaults check_webhook(const std::string& url, Services& services) {
   return {{"webhook", "a URL at a host of the setting webhook-hosts"}};
 }
 
-// Calls `answer(model)` if the model was found. Otherwise returns 404, or 500 or 503 after an
-// error.
+// If the model was found, returns `answer(model)`. Otherwise returns 404, or 500 or 503 if an error
+// occurred.
 template <class Answer>
 Response with_found(const FoundModel& model, const Request& request, Services& services,
                     Answer&& answer) {
@@ -45,7 +45,7 @@ Response with_found(const FoundModel& model, const Request& request, Services& s
   return answer(*model);
 }
 
-// Returns the public part of the published models, newest first; at most kMostListed.
+// Returns the public parts of the published models, newest first, at most kMostListed of them.
 inline constexpr std::size_t kMostListed = 10'000;
 inline Expected<std::vector<ModelRecord>> all_public(Services& services) {
   std::vector<ModelRecord> all;
@@ -66,8 +66,8 @@ inline Response for_caller(Response response) {
   return response;
 }
 
-// Calls `answer` with the part of the model that the caller may see. Returns 404 if there is none,
-// and 500 or 503 if an error occurs.
+// Returns `answer(model)` for the part of the model that the caller may see. Returns 404 if there
+// is no such part, and 500 or 503 if an error occurs.
 template <class Answer>
 Response with_model(const Request& request, Services& services, Answer&& answer) {
   const VisibleModel visible =

@@ -19,7 +19,7 @@ Response state_of(ScannerStation& scanner) {
 }
 
 // Returns the scanner's state if the command succeeded. Otherwise returns 409 with the reason, even
-// if it is a device's error, since the operator must see it.
+// if the reason is a device's error, because the operator must see it.
 Response after(const Expected<void>& done, ScannerStation& scanner, const Request& request) {
   return done ? state_of(scanner) : problem(409, done.error().message, request.id);
 }
@@ -30,7 +30,8 @@ const nlohmann::json* only_member(const nlohmann::json& body, const char* name) 
   return found != body.end() && body.size() == 1 ? &*found : nullptr;
 }
 
-// Returns a permit that ends when the caller's token is revoked, or when its state cannot be read.
+// Returns a permit for the laser. It expires when the caller's token is revoked or cannot be
+// checked.
 LaserPermit permit_of(const Caller& caller, Authenticator& tokens) {
   return [caller, &tokens] { return tokens.is_in_force(caller).value_or(false); };
 }
@@ -119,7 +120,7 @@ static Response switch_laser(const Request& request, Services& services) {
   });
 }
 
-// This route does not read the body: an emergency stop must not fail because of a malformed body.
+// Does not read the request body: an emergency stop must not fail because of a malformed body.
 static Response stop_scanner(const Request& request, Services& services) {
   return with_scanner(request, services, [](ScannerStation& scanner) {
     scanner.stop();
@@ -201,7 +202,7 @@ static constexpr ApiRoute kScannerRoutes[] = {
                  "when a job begins.",
              .request = "LaserSwitch",
              .response = "Scanner"}},
-    // An emergency stop must not wait behind requests that wait for devices or the disk.
+    // An emergency stop must not queue behind requests that wait for devices or the disk.
     {.method = Method::kPost,
      .path = "/api/v1/scanners/{name}/stop",
      .handler = stop_scanner,

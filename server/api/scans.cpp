@@ -28,14 +28,14 @@ Response with_scan(const Request& request, Services& services, Answer&& answer) 
   if (*scan && request.caller) return for_caller(answer(**scan));
   if (*scan && is_visible(**scan, services.models))
     return answer(ScanInfo{(*scan)->entry, without_reasons((*scan)->job)});
-  // A 401 does not reveal which scans exist.
+  // Returns 401 for every ID, so that the response does not reveal which scans exist.
   if (!request.caller) return token_needed(request);
   return problem(404, "there is no such scan", request.id);
 }
 
-// Returns the scans as a JSON array. If another daemon runs a scan, asks that daemon, since only it
-// knows the remaining time and what the scan waits for. If that daemon does not respond, uses the
-// catalogue.
+// Returns the scans as a JSON array. If another daemon runs a scan, asks that daemon, because only
+// it knows the remaining time and what the scan is waiting for. If that daemon does not respond,
+// uses the catalogue instead.
 nlohmann::ordered_json told(std::span<const ScanInfo> scans, const Request& request,
                             Services& services) {
   auto list = nlohmann::ordered_json::array();
@@ -68,7 +68,7 @@ Response state_after(const Expected<void>& done, const ScanId& id, const Request
   if (!done) return refused(done.error(), request, services);
   const auto scan = services.scans.find(id);
   if (!scan || !*scan) return problem(404, "there is no such scan", request.id);
-  // 202, since the command takes effect only at the next step of the turntable.
+  // 202 (Accepted), because the command takes effect only at the next step of the turntable.
   return json_answer(scan_json(**scan), 202);
 }
 
@@ -76,8 +76,8 @@ std::optional<std::size_t> read_from(const Query& query) {
   return parse_number<std::size_t>(query.get("from").value_or("0"));
 }
 
-// Whether the calibration that the order names exists. Also true if this daemon does not drive the
-// scanner, since the job then reports the fault.
+// Whether the calibration that the order names exists. Returns true if this daemon does not drive
+// the scanner and cannot know; the job then reports a missing calibration.
 bool knows_calibration(const ScanOrder& order, Services& services) {
   ScannerStation* scanner = services.scans.scanner(order.scanner);
   if (order.calibration == 0 || scanner == nullptr) return true;
@@ -184,8 +184,9 @@ static Response reprocess_scan(const Request& request, Services& services) {
     if (!before) return refused(before.error(), request, services);
     const bool is_whole = scan.entry.step == scan.entry.steps,
                has_model = scan.entry.model.has_value();
-    // Unless this order says whether to publish, the model of an incomplete scan is a draft, and a
-    // model that replaces another is public if visitors see all of that one.
+    // Applies if the order does not say whether to publish. The model of an incomplete scan then
+    // becomes a draft. A model that replaces another one becomes public if visitors could see all
+    // of the other one.
     before->is_public = before->is_public && is_whole && !has_model;
     before->is_public_as_before = is_whole && has_model;
     const auto order = parse_reprocess_order(request.body, *before);
@@ -275,7 +276,8 @@ static constexpr ApiRoute kScanRoutes[] = {
              .request = "ScanOrder",
              .status = 202,
              .response = "ScanStarted"}},
-    // These routes need no token: the handlers let every client watch a scan that will be public.
+    // The routes below need no token. Their handlers let every client watch a scan that will be
+    // public.
     {.method = Method::kGet,
      .path = "/api/v1/scans/{id}",
      .handler = show_scan,

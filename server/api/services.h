@@ -44,17 +44,18 @@ struct Services {
   const LiveSettings& settings;
   Metrics& metrics;
   VisitCounter& visits;
-  const Log& log;     // the access log
-  const Log& errors;  // log of the events that the operator must know
+  const Log& log;     // access log
+  const Log& errors;  // log of events that operators must know about
   std::atomic<bool> ready{false};
 
   BusyStreams busy_streams = {};
 
-  // Limits on the number of requests being forwarded, since each keeps a worker thread waiting
-  // until the other daemon responds. Requests without a token, requests with a token, and emergency
-  // stops have separate limits. One address may use at most half of the limit for requests without
-  // a token. For each forwarded request there is an additional waiting thread (WorkerOptions), so
-  // that other requests and the watchdog never wait for another daemon.
+  // Limits on the number of requests that are being forwarded. Each of them keeps a worker thread
+  // waiting until the other daemon responds. Requests without a token, requests with a token, and
+  // emergency stops have separate limits. One address may use at most half of the limit for
+  // requests without a token. The worker pool has one additional thread for each request that may
+  // be forwarded (WorkerOptions), so that other requests and the watchdog never wait for another
+  // daemon.
   static constexpr std::size_t kMostForwarded = 8;  // limit for each of the three kinds of requests
   static constexpr unsigned kWaitingThreads = 3 * kMostForwarded;
   const std::shared_ptr<AdmissionLimit> forwarded_for_strangers =

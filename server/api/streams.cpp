@@ -64,7 +64,8 @@ struct StreamClient {
   }
 };
 
-// Whether the client still sees the model, and the model's file is still the one that was opened.
+// Whether the client may still see the model, and the model still has the file that the stream
+// opened.
 bool is_current(const PublishedModel& opened, const FoundModel& now) {
   return now && *now && (*now)->record().file == opened.record().file;
 }
@@ -79,8 +80,8 @@ class OpenModels {
   }
 
   // Whether all models are current. Checks the models only if the catalogue has changed since the
-  // last call. A model that cannot be looked up counts as current, because the cache still serves
-  // it. The next call checks again.
+  // last call. A model whose look-up fails counts as current, because the cache still serves it;
+  // the next call checks it again.
   bool are_current(bool has_token, PublishedModels& cache) {
     const auto revision = cache.revision();
     if (!revision) return true;
@@ -99,12 +100,13 @@ class OpenModels {
  private:
   using Models = std::vector<StreamedModel>;
 
-  // Returns the models, or null if they were checked at this revision.
+  // Returns the open models, or null if they were already checked at this revision.
   std::shared_ptr<const Models> unchecked(std::uint64_t revision) {
     const std::scoped_lock lock(mutex_);
     return checked_ == revision ? nullptr : models_;
   }
-  // Keeps the old revision if the stream has opened or closed a model since unchecked().
+  // Records that `models` were checked at this revision, unless the stream has opened or closed a
+  // model since unchecked().
   void set_checked(const std::shared_ptr<const Models>& models, std::uint64_t revision) {
     const std::scoped_lock lock(mutex_);
     if (models == models_) checked_ = revision;
@@ -136,7 +138,7 @@ class ModelStreamHost : public StreamHost {
     co_return co_await find_on_worker(*id);
   }
 
-  // Answers from memory if possible. Otherwise looks up the model again.
+  // Answers from memory if possible. Otherwise looks up the model in the catalogue again.
   asio::awaitable<bool> is_current(StreamedModel model) override {
     const ModelRecord& opened = model->record();
     if (!client_.caller && cached_visible(opened.id, false, services_.models) == model)
@@ -182,7 +184,7 @@ class ModelStreamHost : public StreamHost {
     return model;
   }
 
-  // Checks the client's token again, since it may have been revoked after the connection began.
+  // Checks the client's token again, because it may have been revoked since the connection began.
   FoundModel look_up(const ModelId& id) {
     Expected<bool> has_token = false;
     if (client_.caller) has_token = services_.tokens.is_in_force(*client_.caller);

@@ -27,7 +27,7 @@ constexpr std::string_view kVersion = "1.0.0";
 constexpr std::string_view kExtensions =
     "creation,creation-defer-length,creation-with-upload,checksum,expiration,termination";
 constexpr std::string_view kPieceType = "application/offset+octet-stream";
-constexpr unsigned kChecksumMismatch = 460;  // of tus
+constexpr unsigned kChecksumMismatch = 460;  // status defined by tus
 
 std::string_view value(const RequestHeader& header, std::string_view name) {
   const auto found = header[{name.data(), name.size()}];
@@ -98,11 +98,11 @@ void discard(const UploadId& upload, Services& services) {
     static_cast<void>(services.uploads.remove(upload));
 }
 
-// Writes the pieces of a body to an upload as they arrive. The response is sent once they are on
-// the disk. If the client has sent a checksum that the body does not have, the upload stays as it
-// was before. If the disk has no room for the body, the upload ends, because its bytes would take
-// the room of others. If the request has created the upload, any refusal ends it, because the
-// client never learns its ID.
+// Writes the pieces of a body to an upload as they arrive. Sends the response once they are on the
+// disk. If the body does not match the client's checksum, restores the upload's previous state. If
+// the disk has no room for the body, ends the upload, because its bytes would take the room of
+// other uploads. If the same request created the upload, any refusal ends the upload, because the
+// client does not learn its ID.
 class UploadSink final : public BodySink {
  public:
   UploadSink(Response answer, UploadWriter writer, std::optional<BodyChecksum> checksum,
@@ -181,8 +181,8 @@ Uploading<void> check_room(std::uint64_t length, Services& services) {
       fmt::format("the disk has no room for {} bytes; remove models or add disk space", length)});
 }
 
-// Creates an upload if it fits into the quota and leaves the disk's reserve free.
-// Without a length, room for the largest upload is needed.
+// Creates an upload if it fits into the quota and leaves the disk's reserve free. If the length is
+// unknown, there must be room for an upload of the largest allowed size.
 Uploading<Upload> announce(std::optional<std::uint64_t> length, std::string_view metadata,
                            const Request& request, Services& services) {
   Uploading<Upload> upload;

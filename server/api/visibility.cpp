@@ -8,9 +8,9 @@ bool is_whole(const FoundModel& published) {
   return published && *published && !(*published)->record().public_part;
 }
 
-// A job adds its model to the catalogue before it records the model in the scan. If the job ends
-// in between, the model may change without the scan, so the scan is hidden. Cancelling the job
-// hides the scan, too.
+// A job adds its model to the catalogue first and records the model in the scan later. If the job
+// ends between these steps, the scan cannot follow later changes of the model, so the scan is
+// hidden. Cancelling the job hides the scan, too.
 bool is_visible_without_model(const ScanInfo& scan) {
   const JobRecord& job = scan.job.record;
   return scan.entry.is_public && job.state != JobState::kCancelled &&

@@ -4,8 +4,9 @@
 //
 // A caller with a token sees everything. A visitor, who has no token, sees the public part of
 // published models: no draft, no level above the cap, no earlier file. A visitor sees a scan's
-// points, profile, record and job while these show nothing that the scan's model hides. Chunks that
-// are requested by their hash alone come from public parts only (PublishedModels::find_chunk).
+// points, profile, record and job as long as these reveal nothing that the scan's model hides. A
+// request for a chunk by its hash alone finds only chunks of public parts
+// (PublishedModels::find_chunk).
 #pragma once
 
 #include "server/jobs/scan_service.h"
@@ -30,9 +31,9 @@ std::shared_ptr<const PublishedModel> cached_visible(const ModelId& id, bool has
                                                      PublishedModels& models);
 
 // Whether visitors see the scan. If the scan has no model yet, visitors see it if it was ordered as
-// public and not cancelled. If it has one, they see it while they see exactly the geometry that was
-// built from the scan: the model is published, no level is hidden, and the file was not replaced.
-// If the catalogue or the store cannot be read, returns false.
+// public and not cancelled. If it has a model, visitors see the scan as long as they also see all
+// geometry that was built from it: the model is published, no level is hidden, and the file was not
+// replaced. If the catalogue or the store cannot be read, returns false.
 bool is_visible(const ScanInfo& scan, PublishedModels& models);
 
 // Whether visitors see the job. They see a job only if it measures a scan that they see.

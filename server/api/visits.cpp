@@ -21,13 +21,13 @@ using VisitFaults = std::vector<ParameterFault>;
 
 constexpr std::uint32_t kMaxSeconds = 86'400;  // longest time that one report may state
 constexpr days kDefaultDays{30};
-// Largest number of rows of a CSV file, so that the memory for one is bounded.
+// Largest number of rows of a CSV file. It bounds the memory for building the file.
 constexpr std::uint32_t kMaxRows = 100'000;
 
 // A viewer's report. A visit has several reports if its page was hidden and shown again.
 struct VisitReport {
-  std::uint32_t seconds = 0;              // since the previous report of this visit
-  std::uint32_t level = 0;                // the finest level shown so far
+  std::uint32_t seconds = 0;              // time since the previous report of this visit
+  std::uint32_t level = 0;                // the finest level shown so far in this visit
   std::optional<std::uint32_t> previous;  // `level` of the previous report; nullopt: a new visit
 };
 
@@ -40,7 +40,7 @@ std::uint32_t read_whole(const Query& query, const char* name, std::uint32_t mos
   return 0;
 }
 
-// `finest` is the number of the model's finest level.
+// Reads a viewer's report from the query. `finest` is the number of the model's finest level.
 tl::expected<VisitReport, Response> read_report(const Request& request, std::uint32_t finest) {
   constexpr std::string_view kKnown[] = {"seconds", "level", "previous"};
   const auto query = read_query(request, kKnown);
@@ -55,7 +55,7 @@ tl::expected<VisitReport, Response> read_report(const Request& request, std::uin
   return tl::unexpected(problem(400, "a parameter is out of range", request.id, faults));
 }
 
-// Returns what the report adds to the sums.
+// Returns the counts by which the report increases the sums.
 VisitCounts counts_of(const VisitReport& report, std::uint32_t finest) {
   const bool was_complete = report.previous && *report.previous == finest;
   return {.visits = report.previous ? 0u : 1u,
@@ -85,7 +85,7 @@ std::string format_date(sys_days day) {
                      static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
-// Reads `from` and `to`. The default is the last kDefaultDays days.
+// Reads the dates `from` and `to` from the query. The default is the last kDefaultDays days.
 tl::expected<DayRange, Response> read_days(const Request& request) {
   constexpr std::string_view kKnown[] = {"from", "to"};
   constexpr const char* kDate = "a date such as 2026-11-28";
@@ -140,7 +140,8 @@ static Response count_visit(const Request& request, Services& services) {
   if (!services.settings.get().counts_visits)
     return problem(404, "this server does not count visits", request.id);
   const ModelId id = id_in<ModelId>(request);
-  // A token shows drafts and hidden levels. Visits are counted only to what everybody sees.
+  // Looks the model up as a visitor sees it, even if the caller has a token: only visits to public
+  // levels are counted.
   const VisibleModel visible = find_visible(id, /*has_token=*/false, services.models);
   return with_found(visible.model, request, services, [&](const auto& model) {
     const auto finest = static_cast<std::uint32_t>(model->manifest().levels.size() - 1);

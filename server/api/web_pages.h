@@ -15,7 +15,7 @@ struct WebAsset {
   std::string_view path;  // path in its URL, such as "/index.html" or "/assets/…"
   std::string_view type;  // media type, with its charset
   std::span<const std::uint8_t> bytes;
-  // The same content compressed with gzip; empty if there is no compressed form.
+  // The same content compressed by gzip; empty if there is no compressed form.
   std::span<const std::uint8_t> gzip = {};
 };
 

@@ -48,9 +48,10 @@ constexpr std::chrono::milliseconds kStaleness{100};  // how long cached models 
 // How often cached models are checked, even without requests.
 constexpr std::chrono::milliseconds kModelCheckEvery{500};
 constexpr std::chrono::seconds kScannerLease{30};
-// How often counted visits are written to the catalogue. An abrupt end loses the visits since then.
+// How often counted visits are written to the catalogue. If the daemon is killed, the visits since
+// the last write are lost.
 constexpr std::chrono::seconds kVisitFlushEvery{10};
-// Time after a job's end at which the daemon gives up on a webhook that the settings do not allow.
+// Webhooks that the settings do not allow are dropped this long after their jobs have ended.
 constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);
 // Largest number of exports that run or wait at a time. A running export holds a decoded mesh.
 constexpr std::size_t kMaxExports = 64;
@@ -237,7 +238,7 @@ class Daemon {
     admin_.start();
     collector_.start(kCollectEvery);
     scrubber_.start(live_.get().scrub_rate);
-    // Without requests, too, the files of withdrawn, replaced and removed models are closed.
+    // Closes the files of withdrawn, replaced and removed models, even if no requests arrive.
     if (live_.get().roles.serves) {
       model_check_.emplace(kModelCheckEvery, events_,
                            [this] { static_cast<void>(models_.revision()); });
@@ -297,8 +298,8 @@ class Daemon {
       if (const auto kept = installation_.jobs->set_notified(id); !kept)
         events_.event(Severity::kError, kept.error().message);
     };
-    // Another daemon may have newer settings that allow the webhook, and may call it. So this
-    // daemon waits for kUnwanted before it gives up on the webhook.
+    // Another daemon may have newer settings that allow the webhook, and may call it. Therefore
+    // waits for kUnwanted before dropping the webhook.
     const bool is_old = now_in_milliseconds() - ended.ended > kUnwanted.count();
     if (!webhooks_.allows(ended.webhook) && is_old) {
       events_.event(Severity::kWarning,
@@ -369,7 +370,8 @@ class Daemon {
     reload_signals_.async_wait([this](const boost::system::error_code& error, int signal) {
       if (error) return;
       if (signal == SIGHUP && at_terminal_ &&
-          ::isatty(STDIN_FILENO) == 0) {  // the terminal was closed
+          // standard input is no terminal, so the terminal was closed
+          ::isatty(STDIN_FILENO) == 0) {
         signals_.cancel();
         return drain();
       }
@@ -379,8 +381,7 @@ class Daemon {
     });
   }
 
-  // Reads the configuration again. The steps that can fail come first, so that an error changes
-  // nothing.
+  // Reads the configuration again. Performs all steps that can fail before it changes anything.
   void reload() {
     tell_service_manager(ServicePhase::kReloading);
     if (const auto done = try_reload(); !done) {
@@ -459,7 +460,7 @@ class Daemon {
     public_.drain([this] { io_.stop(); });
   }
 
-  // Once the daemon waits for signals, only handlers on the strand control_ use this member.
+  // Once the daemon waits for signals, only handlers on the strand `control_` use `configuration_`.
   Configuration configuration_;
   LiveSettings live_;
   const std::shared_ptr<LiveTls> tls_;  // null if the daemon does not use TLS
@@ -516,11 +517,11 @@ std::span<const std::filesystem::path> scanners_of(const Settings& settings) {
 
 int serve(Configuration configuration) {
   const Settings& settings = configuration.line.settings;
-  // Checks the settings first, so that a wrong setting is reported even if another program uses the
-  // port.
+  // Checks the settings first, so that a wrong setting is reported even if another program already
+  // uses the port.
   auto tls = open_tls(settings);
   if (!tls) return report(tls.error());
-  // Checks the scanners' configuration files without using a device.
+  // Checks the scanners' configuration files without accessing a device.
   if (const auto valid = open_scanners(scanners_of(settings), {}); !valid)
     return report(valid.error());
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
@@ -548,7 +549,7 @@ int serve(Configuration configuration) {
 int check(const Settings& settings) {
   if (const auto usable = check_paths(settings); !usable) return report(usable.error());
   if (const auto tls = open_tls(settings); !tls) return report(tls.error());
-  // Checks the scanners' configuration files without using a device.
+  // Checks the scanners' configuration files without accessing a device.
   if (const auto scanners = open_scanners(settings.scanners, {}); !scanners)
     return report(scanners.error());
   return print("the configuration is valid\n");
@@ -558,8 +559,8 @@ int check(const Settings& settings) {
 
 int run_daemon(std::span<const std::string_view> arguments,
                std::span<const std::string_view> environment) {
-  // A connection that the client has closed must not kill the daemon. Unlike send(2), sendfile(2)
-  // has no MSG_NOSIGNAL.
+  // A write to a connection that the client has closed must not kill the daemon. sendfile(2) has no
+  // flag like MSG_NOSIGNAL of send(2), so SIGPIPE is ignored.
   std::signal(SIGPIPE, SIG_IGN);
   const auto read = [=] { return parse_command_line(arguments, environment, read_config_file); };
   const auto line = read();

@@ -31,9 +31,9 @@ std::string whereabouts(const FileDescriptor& file) {
   return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(place.data()), place.size()}));
 }
 
-// Returns the file's content: the daemon's ID, and the result of whereabouts() at the time of
-// writing. Files of earlier versions contain no result. Returns nullopt if the file has no valid
-// ID.
+// Returns the file's content: the daemon's ID, and the result of whereabouts() when the file was
+// written. The second text is empty in files of earlier versions. Returns nullopt if the file has
+// no valid ID.
 std::optional<std::pair<std::string, std::string>> kept_in(const FileDescriptor& file) {
   char text[128] = {};
   const ssize_t length = ::pread(file.get(), text, sizeof text - 1, 0);

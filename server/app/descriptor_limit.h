@@ -6,7 +6,7 @@
 
 namespace vitrine::server {
 
-// Raises the process's descriptor limit as far as `wanted` connections need and the system allows.
+// Raises the process's limit on descriptors for `wanted` connections, as far as the system allows.
 // Returns how many connections fit, at least 1. Reserves descriptors for models, the catalogue and
 // the logs, so that a flood of connections does not prevent a model from being opened.
 std::uint32_t connections_within_limit(std::uint32_t wanted);

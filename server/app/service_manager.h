@@ -12,8 +12,8 @@ enum class ServicePhase { kReady, kReloading, kStopping };
 
 void tell_service_manager(ServicePhase phase);
 
-// Returns half of systemd's watchdog interval, so that one delayed notification does no harm.
-// Returns nullopt if systemd does not watch the service.
+// Returns half of systemd's watchdog interval, so that one delayed notification does not cause a
+// restart. Returns nullopt if systemd does not watch the service.
 std::optional<std::chrono::microseconds> watchdog_interval();
 void tell_alive();
 

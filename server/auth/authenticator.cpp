@@ -22,9 +22,9 @@ bool is_printable(std::string_view text) {
   return std::ranges::none_of(text, [](unsigned char c) { return c < ' ' || c == 0x7f; });
 }
 
-// Compares in constant time: the duration does not depend on where the two hashes differ.
+// Compares in constant time, so that the duration does not reveal where the two hashes differ.
 bool are_equal(const Sha256& a, const Sha256& b) {
-  volatile std::uint8_t difference = 0;  // keeps the compiler from leaving the loop early
+  volatile std::uint8_t difference = 0;  // prevents the compiler from leaving the loop early
   for (std::size_t i = 0; i < a.size(); ++i)
     difference = difference | (a[i] ^ b[i]);
   return difference == 0;

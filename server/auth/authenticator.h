@@ -26,12 +26,12 @@ struct NewToken {
   std::string text;  // shown once to its creator and never stored
 };
 
-// Creates a token and adds it to the catalogue. kBadInput if the label is not one short line, kIo
-// if the catalogue fails.
+// Creates a token and adds it to the catalogue. Fails with kBadInput if the label is not one short
+// line, and with kIo if the catalogue fails.
 Expected<NewToken> create_token(Catalogue& catalogue, Role role, std::string label);
 
-// Caches each token in force (not revoked) for kMemory. A token that another process revokes may
-// therefore be accepted for that long. Thread-safe.
+// Caches each valid token for the time kMemory. If another process revokes a token, this one may
+// therefore still accept it for up to kMemory. Thread-safe.
 class Authenticator {
  public:
   using Clock = std::chrono::steady_clock;
@@ -39,24 +39,24 @@ class Authenticator {
 
   explicit Authenticator(Catalogue& catalogue) : catalogue_(catalogue) {}
 
-  // Looks up the token `text` in the catalogue. Returns its caller, or nullopt if no such token is
-  // in force. kIo if the catalogue fails.
+  // Looks up the token `text` in the catalogue. Returns its caller, or nullopt if the token does
+  // not exist or was revoked. Fails with kIo if the catalogue fails.
   Expected<std::optional<Caller>> find(std::string_view text, Clock::time_point now = Clock::now());
 
-  // Looks up the token `text` in the cache. Returns nullopt if the caller must use find(). Once
-  // half of kMemory has passed, one call returns nullopt, so that its caller refreshes the entry
-  // while other calls still use the cache.
+  // Looks up the token `text` in the cache. Returns nullopt if the caller must use find(). When an
+  // entry is older than half of kMemory, one call returns nullopt, so that its caller refreshes the
+  // entry while other calls still use it.
   std::optional<Caller> cached(std::string_view text, Clock::time_point now = Clock::now());
 
-  // Whether the token is still in force. kIo if the catalogue fails.
+  // Whether the token has not been revoked. Fails with kIo if the catalogue fails.
   Expected<bool> is_in_force(const Caller& caller, Clock::time_point now = Clock::now());
 
-  // Clears the cache. A token that this process has revoked is refused from the next call on.
+  // Clears the cache, so that a token that this process has revoked is refused from the next call
+  // on.
   void forget();
 
-  // The throttle of failed authentications. Callers with a token in force are never throttled:
-  // behind a proxy, operators and strangers may share an address, and an emergency stop must get
-  // through.
+  // The throttle of failed authentications. Callers with a valid token are never throttled: behind
+  // a proxy, operators and strangers may share an address, and an emergency stop must get through.
   Throttle& throttle() { return throttle_; }
 
  private:
@@ -76,7 +76,7 @@ class Authenticator {
   Catalogue& catalogue_;
   Throttle throttle_;
   std::mutex mutex_;  // guards the members below
-  // Number of forget() calls; look-ups begun before the last call are stale.
+  // Number of forget() calls. A look-up that began before the last forget() is stale.
   std::uint64_t forgotten_ = 0;
   std::unordered_map<Sha256, Memory, HashOfHash> held_;
 };

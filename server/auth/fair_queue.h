@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A queue that serves its owners in turn, so that an owner with many items delays the next item of
-// each other owner by one item only.
+// A queue that serves its owners in turn. An owner with many items delays the next item of each
+// other owner by one item only.
 #pragma once
 
 #include <algorithm>
@@ -39,10 +39,10 @@ class FairQueue {
   }
 
  private:
-  // Keyed by round and order of arrival.
+  // key: round, then order of arrival
   std::map<std::pair<std::uint64_t, std::uint64_t>, Item> items_;
   std::map<std::string, std::uint64_t>
-      last_round_;  // last round of each owner, if it is `round_` or later
+      last_round_;  // per owner: its last round, if that is `round_` or later
   std::uint64_t round_ = 1, arrivals_ = 0;
 };
 

@@ -13,7 +13,7 @@ RateLimit::RateLimit(std::uint32_t rate)
 
 std::chrono::seconds RateLimit::take(std::string_view who, Clock::time_point now) {
   if (rate_ == 0) return {};
-  // The multiplication mixes all bits into the high ones, which select the budget.
+  // The multiplication mixes all bits of the hash into the high bits, which select the budget.
   const std::uint64_t hash = (std::hash<std::string_view>{}(who) ^ salt_) * 0x9e3779b97f4a7c15ULL;
   const std::scoped_lock lock(mutex_);
   Budget& budget = budgets_[hash >> 52];

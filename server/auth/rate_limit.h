@@ -26,7 +26,7 @@ class RateLimit {
 
  private:
   struct Budget {
-    Clock::time_point since{};  // time of the last change of `calls`; {}: the budget is full
+    Clock::time_point since{};  // time of the last change of `calls`; {} if the budget is full
     double calls = 0;
   };
   const double rate_;

@@ -10,7 +10,7 @@ Throttle::Throttle()
     : salt_(std::uint64_t{std::random_device{}()} << 32 | std::random_device{}()) {}
 
 std::chrono::seconds Throttle::failed(std::string_view address, Clock::time_point now) {
-  // The multiplication mixes all bits into the high ones, which select the slot.
+  // The multiplication mixes all bits of the hash into the high bits, which select the slot.
   const std::uint64_t hash =
       (std::hash<std::string_view>{}(address) ^ salt_) * 0x9e3779b97f4a7c15ULL;
   const std::scoped_lock lock(mutex_);

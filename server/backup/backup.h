@@ -16,23 +16,24 @@
 namespace vitrine::server {
 
 struct BackupReport {
-  std::uint64_t models = 0, files = 0, bytes = 0;  // bytes: total size of the files
-  // Files of the installation that the backup lacks, and faults of the catalogue, each in one line.
+  std::uint64_t models = 0, files = 0, bytes = 0;  // `bytes` is the total size of the files
+  // One line for each file of the installation that the backup lacks, and for each fault of the
+  // catalogue.
   std::vector<std::string> damaged;
 };
 
-// Backs up the installation in `data` to `file`, which is written completely or not at all. A
-// daemon may serve the installation during the backup. The backup shows the state at one moment,
-// except for scans in progress, which it stores as a crash of the daemon would leave them. Reads
-// every object and checks its hash. Leaves out damaged files and lists them in the report. kIo if
-// the catalogue cannot be read or the backup cannot be written.
+// Backs up the installation in `data` to `file`. Writes the file completely or not at all. A daemon
+// may serve the installation during the backup. The backup shows the state at one moment, except
+// for scans in progress, which it stores as a crash of the daemon would leave them. Reads every
+// object and checks its hash. Leaves out damaged files and lists them in the report. Fails with kIo
+// if the catalogue cannot be read or the backup cannot be written.
 Expected<BackupReport> back_up(const std::filesystem::path& data,
                                const std::filesystem::path& file);
 
 // Restores a backup into `data`, which must be absent or empty, so that nothing is overwritten.
 // Checks all hashes and restores the catalogue last. The report lists the objects that were damaged
-// when the backup was made. On failure, `data` is left as it was.
-// kBadInput if the file is not a backup or is damaged, kIo if a file cannot be read or written.
+// when the backup was made. On failure, `data` is left as it was. Fails with kBadInput if the file
+// is not a backup or is damaged, and with kIo if a file cannot be read or written.
 Expected<BackupReport> restore(const std::filesystem::path& file,
                                const std::filesystem::path& data);
 

@@ -13,10 +13,10 @@
 namespace vitrine::server {
 
 inline constexpr std::string_view kChecksums = "SHA256SUMS";
-// Name of the file that lists the objects that the installation had lost when the backup was made.
+// Name of the file in a backup that lists the objects that the installation had already lost.
 inline constexpr std::string_view kDamagedList = "DAMAGED";
 
-// Returns the path of an object in a backup and in a data folder.
+// Returns the path of an object, which is the same in a backup and in a data folder.
 std::string object_path(const Sha256& name);
 
 // SHA-256 of each file by its path in the archive.

@@ -10,7 +10,7 @@
 namespace vitrine::server {
 namespace {
 
-using FilesByHash = std::map<Sha256, NamedFile>;  // each file once, even if several models name it
+using FilesByHash = std::map<Sha256, NamedFile>;  // each file once, even if several models use it
 
 Expected<FilesByHash> named_files(Installation& installation, MigrationReport& report) {
   const auto named = installation.catalogue->files();
@@ -36,7 +36,7 @@ Expected<void> copy_file(const ObjectStore& from, ObjectStore& to, const NamedFi
   return put ? Expected<void>() : tl::unexpected(put.error());
 }
 
-// Copies the files that `done` does not contain yet, and adds them to `done`.
+// Copies the files that are not in `done` yet, and adds them to `done`.
 Expected<void> copy_files(Installation& from, Installation& to, MigrationReport& report,
                           FilesByHash& done, const MigrationProgress& progress) {
   const auto files = named_files(from, report);
@@ -68,7 +68,7 @@ bool are_same(const Installation& a, const Installation& b) {
 }  // namespace
 
 // If a file is removed from the source during the migration, its copy remains at the destination
-// until garbage collection removes it.
+// until the garbage collection there removes it.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress) {
   if (are_same(from, to))

@@ -18,10 +18,11 @@ using MigrationProgress = std::function<void(std::size_t done, std::size_t all)>
 
 // Copies the installation `from` into `to`. First copies the files and checks the SHA-256 of each
 // on both sides. Then blocks publishing on both sides, copies the files that were added meanwhile,
-// and copies the whole catalogue in one transaction. The destination shows no model before that.
-// After an interruption, call it again: files that exist are checked and not sent again. Copies
-// neither uploads nor the data of scans, which stay in their data folder. kState if the destination
-// contains other data or a file is damaged, kIo if a store or a catalogue fails.
+// and copies the whole catalogue in one transaction. The destination shows no model before that
+// transaction. After an interruption, call the function again; it checks files that exist already
+// instead of copying them again. Copies neither uploads nor the data of scans, which stay in their
+// data folder. Fails with kState if the destination contains other data or a file is damaged, and
+// with kIo if a store or a catalogue fails.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress);
 

@@ -14,8 +14,8 @@ Expected<void> put_back(Installation& installation, const Sha256& name,
   return put ? Expected<void>() : tl::unexpected(put.error());
 }
 
-// Increments the versions of the file's models, so that daemons open the repaired file. A model
-// that another caller changes meanwhile has a new version already.
+// Increments the versions of all models with this file, so that daemons open the repaired file. If
+// another caller changes a model at the same time, the model has a new version already.
 Expected<void> tell_daemons(Catalogue& catalogue, const Sha256& name) {
   const auto files = catalogue.files();
   if (!files) return tl::unexpected(files.error());
@@ -53,7 +53,7 @@ CopySource copies_in_store(const ObjectStore& store) {
     for (const Sha256& name : wanted) {
       const auto object = store.open(name);
       if (!object && object.error().code == ErrorCode::kState)
-        continue;  // this copy is damaged, too
+        continue;  // the copy in this source is damaged, too
       if (!object) return tl::unexpected(object.error());
       if (*object == nullptr) continue;
       const auto bytes = (*object)->read(0, (*object)->size());

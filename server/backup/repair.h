@@ -17,11 +17,12 @@ namespace vitrine::server {
 using TakeCopy =
     std::function<Expected<void>(const Sha256& name, std::span<const std::uint8_t> bytes)>;
 
-// Passes to `take` each wanted object that the source has with the right SHA-256.
+// Passes to `take` each wanted object that the source has with its correct SHA-256.
 using CopySource =
     std::function<Expected<void>(const std::set<Sha256>& wanted, const TakeCopy& take)>;
 
-// The copies in a backup. kBadInput if the file is not a backup, kIo if it cannot be read.
+// Returns a source of the copies in a backup. The source fails with kBadInput if the file is not a
+// backup, and with kIo if it cannot be read.
 CopySource copies_in_backup(const std::filesystem::path& file);
 
 // Returns a source of the copies in another store, which must outlive the result. The source fails
@@ -32,12 +33,13 @@ struct RepairReport {
   std::uint64_t objects = 0;  // number of checked objects
   std::vector<DamagedFile> repaired;
   std::vector<DamagedFile>
-      damaged;  // objects that are still damaged or missing, since the source has no intact copy
+      damaged;  // objects that are still damaged or missing because the source has no intact copy
 };
 
-// Checks all objects of the installation and puts back those that are damaged or missing. Daemons
-// may serve the installation meanwhile, and serve the repaired models at once. kIo if a store or
-// the catalogue fails, kBadInput if the source is malformed.
+// Checks all objects of the installation, and replaces those that are damaged or missing by copies
+// from `source`. Daemons may serve the installation in the meantime; they serve the repaired models
+// at once. Fails with kIo if a store or the catalogue fails, and with kBadInput if the source is
+// malformed.
 Expected<RepairReport> repair(Installation& installation, const CopySource& source);
 
 }  // namespace vitrine::server

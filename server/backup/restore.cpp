@@ -52,7 +52,8 @@ class Restoration {
   Restoration(fs::path file, fs::path data) : file_(std::move(file)), data_(std::move(data)) {}
 
   Expected<BackupReport> run() {
-    std::error_code error;  // not checked, since unpack() then fails as well
+    // not checked, because unpack() fails as well if the folder could not be created
+    std::error_code error;
     const bool made = create_private_folder(data_, error);
     auto done = unpack();
     if (!done) take_back(made);
@@ -104,7 +105,7 @@ class Restoration {
     return damaged(entry.name, "does not belong in a backup");
   }
 
-  // Only the owner may read the catalogue, because it holds hashes of tokens, and drafts.
+  // Only the owner may read the catalogue, because it contains hashes of tokens, and drafts.
   Expected<void> take_catalogue(const TarEntry& entry) {
     if (auto written = write_file_atomically(unnamed(), entry.bytes); !written) return written;
     std::error_code error;
@@ -126,7 +127,8 @@ class Restoration {
   Expected<void> take_scan(const TarEntry& entry) {
     const fs::path path = data_ / entry.name;
     std::error_code error;
-    fs::create_directories(path.parent_path(), error);  // if this fails, the next call fails, too
+    // if this fails, writing the file fails as well
+    fs::create_directories(path.parent_path(), error);
     return write_file_atomically(path, entry.bytes);
   }
 
@@ -142,8 +144,8 @@ class Restoration {
     return {};
   }
 
-  // Checks that the store has every file that the catalogue names, except those that were lost
-  // before the backup.
+  // Checks that the store has every file that the catalogue names, apart from files that were
+  // already lost when the backup was made.
   Expected<void> check_models(const ObjectStore& store) {
     const auto catalogue = open_sqlite_catalogue(unnamed());
     if (!catalogue) return tl::unexpected(catalogue.error());
@@ -163,7 +165,8 @@ class Restoration {
     return {};
   }
 
-  // The catalogue's temporary name, which it keeps until all other files are restored.
+  // Returns the temporary path of the catalogue. The catalogue gets its final name only after all
+  // other files are restored.
   fs::path unnamed() const { return data_ / ".catalogue.restored"; }
 
   void take_back(bool folder_too) const {

@@ -27,7 +27,7 @@ class TarWriter {
   Expected<void> finish();
 
  private:
-  struct RemoveFile {  // removes the temporary file unless it was renamed
+  struct RemoveFile {  // removes the temporary file unless finish() has renamed it
     void operator()(std::filesystem::path* path) const;
   };
   struct FreeWriter {
@@ -47,15 +47,16 @@ struct TarEntry {
   std::vector<std::uint8_t> bytes;
 };
 
-// Reads an archive, which may be hostile. kBadInput if it is not a tar archive, or contains entries
-// other than regular files, or a file larger than kMaxFile. kIo if the file cannot be opened.
+// Reads an archive, which may be hostile. Fails with kBadInput if the file is not a tar archive, or
+// has entries other than regular files, or has a file larger than kMaxFile. Fails with kIo if the
+// file cannot be opened.
 class TarReader {
  public:
   static constexpr std::uint64_t kMaxFile = std::uint64_t{4} << 30;
 
   static Expected<TarReader> open(const std::filesystem::path& file);
 
-  Expected<std::optional<TarEntry>> next();  // nullopt after the last entry
+  Expected<std::optional<TarEntry>> next();  // returns nullopt after the last entry
 
  private:
   struct FreeReader {

@@ -29,8 +29,8 @@ enum class ModelState : std::uint8_t { kDraft = 0, kPublished = 1 };
 // The pictures of a texture in a .pmesh file. All numbers are 0 if the model has no texture.
 struct TextureSummary {
   std::uint32_t count = 0;         // number of kinds of pictures: base colours, normals, ...
-  std::uint32_t largest_side = 0;  // in pixels
-  std::uint64_t bytes = 0;         // of all pictures, in all sizes
+  std::uint32_t largest_side = 0;  // width and height of the largest picture, in pixels
+  std::uint64_t bytes = 0;         // total size of all pictures, in all sizes
   bool operator==(const TextureSummary&) const = default;
 };
 
@@ -112,31 +112,32 @@ struct ModelPage {
   std::optional<ModelId> next;      // nullopt on the last page
 };
 
-// Safe to use from several threads at once, and by several processes on the same data. Errors: kIo
-// if the database fails, kLimit if the disk is full, kState in the cases that each function lists.
+// Safe to use from several threads at once, and by several processes on the same data. All
+// functions fail with kIo if the database fails and with kLimit if the disk is full. The comments
+// of the functions state when they fail with kState.
 class Catalogue {
  public:
   virtual ~Catalogue() = default;
 
   // Adds a model and its chunks in one transaction. If `by` is given, the same transaction stores
-  // the model's ID in the record of that job. kState if a model with this ID exists, or if another
-  // daemon has claimed the job.
+  // the model's ID in the record of that job. Fails with kState if a model with this ID exists, or
+  // if another daemon has claimed the job.
   virtual Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks,
                              const std::optional<JobClaim>& by = std::nullopt) = 0;
 
-  // Publishes a model or makes it a draft. kState if the model does not exist.
+  // Publishes a model or makes it a draft. Fails with kState if the model does not exist.
   virtual Expected<void> set_state(const ModelId& id, ModelState state) = 0;
 
   // Replaces the record of a model, except `created`, and increments its version. Replaces its
   // chunks, too, if `chunks` are given. If `by` is given, the same transaction stores the model's
-  // ID in the record of that job. kState if the model does not exist, or if its version is not
-  // `model.version` because another caller has changed it.
+  // ID in the record of that job. Fails with kState if the model does not exist, or if its version
+  // is not `model.version` because another caller has changed it.
   virtual Expected<void> update(const ModelRecord& model,
                                 std::optional<std::span<const ChunkPlace>> chunks,
                                 const std::optional<JobClaim>& by = std::nullopt) = 0;
 
-  // Removes a model and its chunks. kState if the model does not exist, or if `version` is given
-  // and is not the model's version.
+  // Removes a model and its chunks. Fails with kState if the model does not exist, or if `version`
+  // is given and is not the model's version.
   virtual Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) = 0;
 
   // Returns the files of all models, drafts included, ordered by model. For each model, lists its
@@ -154,17 +155,18 @@ class Catalogue {
   // Returns the location of a chunk's bytes, or nullopt if no published model has the chunk.
   virtual Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) = 0;
 
-  // Adds a token. kState if a token with this ID or this hash exists.
+  // Adds a token. Fails with kState if a token with this ID or this hash exists.
   virtual Expected<void> add_token(const TokenRecord& token) = 0;
 
-  // Returns the tokens in force (not revoked) whose hashes start with the same four bytes as
+  // Returns the tokens that are not revoked and whose hashes start with the same four bytes as
   // `hash`. The caller compares the remaining bytes in constant time.
   virtual Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) = 0;
 
-  virtual Expected<std::vector<TokenRecord>> tokens() = 0;  // tokens in force, oldest first
+  // tokens that are not revoked, oldest first
+  virtual Expected<std::vector<TokenRecord>> tokens() = 0;
 
-  // Revokes a token; this cannot be undone. kState if the token does not exist or is already
-  // revoked.
+  // Revokes a token; this cannot be undone. Fails with kState if the token does not exist or is
+  // already revoked.
   virtual Expected<void> revoke_token(const TokenId& id) = 0;
 
   // Returns a number that changes whenever a process changes models or tokens. The call is cheap.
@@ -172,8 +174,8 @@ class Catalogue {
   virtual Expected<std::uint64_t> revision() = 0;
 
   // Sets the function to call after this object has withdrawn or removed a published model, or has
-  // replaced its chunks. The function receives the chunks that the model had. Other published
-  // models may still have some of these chunks. Call this before other threads use the catalogue.
+  // replaced its chunks. The function receives the model's previous chunks; other published models
+  // may still have some of them. Call this before other threads use the catalogue.
   using ChunksHidden = std::function<void(std::vector<Sha256> chunks)>;
   virtual void when_hidden(ChunksHidden hidden) = 0;
 };

@@ -15,7 +15,8 @@ struct Table {
   std::string_view name, key, columns;
 };
 
-// The tables in the order of copying. A table comes after the tables that it refers to.
+// The tables in the order of copying. A table comes after all tables that its foreign keys refer
+// to.
 constexpr Table kTables[] = {
     {"model", "id",
      "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "

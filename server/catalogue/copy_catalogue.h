@@ -7,9 +7,9 @@
 namespace vitrine::server {
 
 // Copies a whole catalogue, including jobs and scans, into another database. Uses one transaction,
-// so that no reader sees a partial copy. Overwrites rows with the same IDs. kState if the
-// destination contains rows that the source does not have, because the copy would mix two
-// catalogues. kIo if a database fails, kLimit if the disk is full.
+// so that no reader sees a partial copy. Overwrites rows with the same IDs. Fails with kState if
+// the destination contains rows that the source does not have, because the copy would mix two
+// catalogues. Fails with kIo if a database fails, and with kLimit if the disk is full.
 Expected<void> copy_catalogue(sql::Database& from, sql::Database& to);
 
 }  // namespace vitrine::server

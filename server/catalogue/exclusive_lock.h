@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lock that only one of the daemons of an installation holds at a time.
+// A lock that at most one daemon of an installation holds at a time.
 #pragma once
 
 #include "codec/core/expected.h"
@@ -11,8 +11,8 @@ class ExclusiveLock {
  public:
   virtual ~ExclusiveLock() = default;
 
-  // Succeeds if the lock is still held. kIo if the lock was lost. The caller must then stop its
-  // work, because another daemon may hold the lock.
+  // Succeeds if the lock is still held. Fails with kIo if the lock was lost. The caller must then
+  // stop its work, because another daemon may hold the lock.
   virtual Expected<void> check() const = 0;
 };
 

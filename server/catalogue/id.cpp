@@ -10,7 +10,7 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::string_view kDigits = "0123456789abcdefghjkmnpqrstvwxyz";  // without i, l, o and u
-constexpr std::size_t kLength = 26;  // 26 digits have 130 bits, two more than an ID
+constexpr std::size_t kLength = 26;  // 26 digits hold 130 bits, two more than an ID
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::optional<Ulid> parse_ulid(std::string_view text) noexcept {
   if (text.size() != kLength || text[0] > '7') return std::nullopt;
   Ulid id{};
   std::uint32_t window = 0;
-  int bits = -2;  // 26 digits have 130 bits, two more than the ID
+  int bits = -2;  // starts below 0, because 26 digits hold 130 bits, two more than the ID
   std::size_t out = 0;
   for (const char digit : text) {
     const std::size_t value = kDigits.find(digit);

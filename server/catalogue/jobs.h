@@ -41,7 +41,7 @@ struct JobRecord {
   JobId id;
   JobKind kind = JobKind::kScan;
   JobState state = JobState::kQueued;
-  std::string scanner;  // name of the scanner; empty if the job needs none
+  std::string scanner;  // name of the scanner; empty if the job needs no scanner
   std::optional<ScanId> scan;
   std::optional<ModelId> model;  // the model that the job made
   std::string stage;             // stage of the job, one word; empty until the job starts
@@ -51,24 +51,24 @@ struct JobRecord {
   // Times in milliseconds since 1970, UTC. `ended` is 0 until the job ends.
   std::int64_t created = 0, ended = 0;
   std::string webhook = {};  // URL that is called when the job ends; empty: none
-  // Number of starts since a run of the job last ended properly. More than 1 if a daemon died
-  // during the job.
+  // Number of times that a daemon has started the job since a run of it last ended properly. More
+  // than 1 if a daemon died during the job.
   std::uint32_t attempts = 0;
   // Increases each time a daemon claims the job, or a client cancels it while no daemon works on
   // it. A write with an earlier value is refused.
   std::uint64_t fence = 0;
   // The build's repairs and losses, one line for each kind; empty if there were none.
   std::string repairs = {};
-  // The owner, who shares the builders with the other owners: the ID of the token that uploaded the
-  // file. Empty for jobs without an upload.
+  // Determines whose jobs take turns on the builders: the ID of the token that uploaded the file.
+  // Empty for jobs without an upload.
   std::string owner = {};
 
   bool operator==(const JobRecord&) const = default;
 };
 
-// The quality of the camera's pictures of a scan, as shares of their rows from 0 to 1. `empty` is
-// the share of all rows that show no laser stripe. `saturated` and `doubled` are shares of the rows
-// with a stripe: the saturated rows, and the rows with two stripes.
+// The quality of the camera's pictures of a scan. The members are shares of picture rows, from 0 to
+// 1. `empty` is the share of all rows that show no laser stripe. `saturated` and `doubled` are
+// shares of the rows with a stripe: the saturated rows, and the rows with two stripes.
 struct ScannedRows {
   double empty = 0, saturated = 0, doubled = 0;
 
@@ -77,12 +77,12 @@ struct ScannedRows {
 
 struct ScanEntry {
   ScanId id;
-  JobId job;  // the newest job that measures the scan
+  JobId job;  // the newest job that has measured the scan
   std::string scanner;
   bool is_public = false;  // whether the running scan is visible without a token
   std::string title;
-  std::string parameters;   // JSON
-  int steps = 0, step = 0;  // steps per revolution of the table; steps done
+  std::string parameters;   // parameters of the scan, as JSON
+  int steps = 0, step = 0;  // steps per revolution of the turntable, and number of steps done
   std::uint64_t points = 0;
   int calibration = 0;  // number of the calibration that the scan uses
   std::optional<ModelId> model;
@@ -93,9 +93,9 @@ struct ScanEntry {
   // the scan since, and the steps in the folder cannot be used. Empty if an earlier version of
   // Vitrine began the scan.
   std::string revolution = {};
-  // The hash of the geometry that was built from the scan as `model` (geometry_hash()). nullopt:
-  // not known. Then clients without a token do not see the scan, because `model` may show another
-  // object by now.
+  // The hash of the geometry that was built from the scan as `model` (geometry_hash()). nullopt if
+  // it is not known. In that case, clients without a token do not see the scan, because `model` may
+  // show another object by now.
   std::optional<Sha256> built = {};
 
   bool operator==(const ScanEntry&) const = default;
@@ -141,21 +141,22 @@ struct ScannerDriver {
   bool is_current = false;  // whether the driver's lease is still valid
 };
 
-// Safe to use from several threads at once, and by several processes on the same data. Errors: kIo
-// if the database fails, kLimit if the disk is full, kState in the cases that each function lists.
+// Safe to use from several threads at once, and by several processes on the same data. All
+// functions fail with kIo if the database fails and with kLimit if the disk is full. The comments
+// of the functions state when they fail with kState.
 class JobCatalogue {
  public:
   virtual ~JobCatalogue() = default;
 
   // Adds a job and, if `key` is given, its idempotency key. If `scan` is given, adds that scan, or
-  // replaces the scan with the same ID. Uses one transaction. kState if the job's ID or the key
-  // exists already.
+  // replaces the scan with the same ID. Uses one transaction. Fails with kState if the job's ID or
+  // the key exists already.
   virtual Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                              const std::optional<IdempotencyKey>& key) = 0;
 
-  // The two functions update() replace the record of a job, or of a scan that the job `by`
-  // measures. The lease of a job ends unless the new state is kRunning. kState if the record does
-  // not exist, or if another daemon has claimed or ended the job since it was read.
+  // Both overloads of update() replace the record of a job, or of a scan that the job `by`
+  // measures. The lease of a job ends unless the new state is kRunning. Fails with kState if the
+  // record does not exist, or if another daemon has claimed or ended the job since it was read.
   virtual Expected<void> update(const JobRecord& job) = 0;
   virtual Expected<void> update(const ScanEntry& scan, const JobClaim& by) = 0;
 
@@ -169,13 +170,13 @@ class JobCatalogue {
   virtual Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
                                                         std::uint32_t limit, bool overdue) = 0;
   // Renews the lease of a job and stores its stage and progress. Returns true if a cancellation was
-  // requested. kState if another daemon has claimed or ended the job; the caller must then abandon
-  // the job.
+  // requested. Fails with kState if another daemon has claimed or ended the job; the caller must
+  // then abandon the job.
   virtual Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) = 0;
   // Cancels a job. If no daemon works on the job, ends the job at time `now`. Its state is then
   // kCancelled, or kDone if a daemon had stored the job's model before it died. If a daemon works
   // on the job, that daemon receives the request when it renews its lease. Returns the changed job.
-  // kState if the job does not exist or has ended.
+  // Fails with kState if the job does not exist or has ended.
   virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
   // Ends the leases of all jobs of `holder`, a daemon that no longer works on them.
   virtual Expected<void> drop_leases(const std::string& holder) = 0;
@@ -185,7 +186,7 @@ class JobCatalogue {
   virtual Expected<std::optional<std::uint64_t>> take_scanner(const std::string& scanner,
                                                               const Lease& lease,
                                                               const std::string& address) = 0;
-  // Renews the lease on a scanner. kState if a later epoch has begun.
+  // Renews the lease on a scanner. Fails with kState if a later epoch has begun.
   virtual Expected<void> renew_scanner(const std::string& scanner, std::uint64_t epoch,
                                        std::chrono::milliseconds lease) = 0;
   // Releases all scanners of `holder`.
@@ -206,11 +207,11 @@ class JobCatalogue {
   // Claims up to 16 jobs that have ended and whose webhooks are neither called nor claimed, and
   // returns these jobs. While the lease is valid, no other daemon calls their webhooks.
   virtual Expected<std::vector<JobRecord>> claim_unnotified(const Lease& lease) = 0;
-  // Renews the lease on a job's webhook. kState if another daemon has claimed or called the
-  // webhook.
+  // Renews the lease on a job's webhook. Fails with kState if another daemon has claimed or called
+  // the webhook.
   virtual Expected<void> renew_unnotified(const JobId& id, const Lease& lease) = 0;
-  // Records that a job's webhook was called or will not be tried again. kState if the job does not
-  // exist.
+  // Records that a job's webhook was called or will not be tried again. Fails with kState if the
+  // job does not exist.
   virtual Expected<void> set_notified(const JobId& id) = 0;
 
   // The job that was added with an idempotency key, and the hash of its request.

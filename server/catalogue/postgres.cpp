@@ -191,8 +191,9 @@ class PostgresStatement final : public sql::Statement {
 
 }  // namespace
 
-// Parameters in the URL override those that precede `dbname` in the list. Does not report libpq's
-// message on a malformed URL, because it may quote parts of the password.
+// Values in the URL take precedence over the defaults that precede `dbname` in the list of
+// parameters. If the URL is malformed, libpq's message is not reported, because it may quote parts
+// of the password.
 PostgresConnection::PostgresConnection(const std::string& url) {
   PQconninfoOption* const options = PQconninfoParse(url.c_str(), nullptr);
   if (options == nullptr)

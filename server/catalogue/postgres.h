@@ -60,7 +60,8 @@ class PostgresConnection final : public sql::DatabaseConnection {
   };
   std::unique_ptr<PGconn, CloseConnection> handle_;
   std::map<std::string, std::unique_ptr<sql::Statement>> statements_;
-  // Whether a response has timed out. Data received later could belong to that old query.
+  // Whether a response has timed out. Data received later could belong to the timed-out query, so
+  // the connection must not be used again.
   bool hangs_ = false;
 };
 

@@ -20,9 +20,9 @@ struct OpenDatabase {
 };
 
 // Opens a database, and creates or migrates its tables. `url`: postgresql://USER@HOST/DATABASE,
-// with any connection parameter of libpq. kIo if the server is unreachable or refuses the
-// connection. kUnsupported if a newer version of Vitrine has changed the tables so that this
-// version cannot use them. Error messages do not contain the password.
+// with any connection parameter of libpq. Fails with kIo if the server is unreachable or refuses
+// the connection. Fails with kUnsupported if a newer version of Vitrine has changed the tables so
+// that this version cannot use them. Error messages do not contain the password.
 Expected<OpenDatabase> open_database(const std::string& url);
 
 }  // namespace vitrine::server::postgres

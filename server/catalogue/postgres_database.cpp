@@ -10,7 +10,7 @@ namespace vitrine::server::postgres {
 namespace {
 
 constexpr std::chrono::seconds kPause{1};  // pause after a failed attempt to reach the server
-// Time between two messages from the lock's holder to the server.
+// Time between two messages that the lock's holder sends to the server.
 constexpr std::chrono::seconds kBeat{3};
 constexpr const char* kEndsWhenSilent = "SET idle_session_timeout = '15s'";
 // The number of the advisory lock of the catalogue.
@@ -64,7 +64,7 @@ std::shared_ptr<sql::DatabaseConnection> PostgresDatabase::lease() {
 }
 
 // Sends a message to the server every few seconds. If this process is suspended or the network is
-// down, the server receives no message: it closes the connection and gives the lock to the next
+// down, the messages stop. The server then closes the connection and gives the lock to the next
 // process.
 class PostgresDatabase::Lock final : public ExclusiveLock {
  public:
@@ -121,7 +121,7 @@ Expected<std::shared_ptr<const ExclusiveLock>> PostgresDatabase::lock() {
   } catch (const sql::Failure& failure) {
     own_turn_.release();
     return sql::refused("cannot lock the catalogue", failure);
-  } catch (...) {  // out of memory
+  } catch (...) {  // catches std::bad_alloc
     own_turn_.release();
     throw;
   }

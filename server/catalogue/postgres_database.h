@@ -36,11 +36,11 @@ class PostgresDatabase final : public sql::Database,
   std::condition_variable freed_;
   std::vector<std::unique_ptr<PostgresConnection>> idle_;
   std::size_t leased_ = 0;
-  // Until this time, calls fail without an attempt to connect.
+  // Until this time, calls fail without an attempt to connect, because a recent attempt failed.
   std::chrono::steady_clock::time_point away_until_{};
 
-  // The lock uses a connection of its own, because its holder needs another connection for queries.
-  // This semaphore lets only one thread of this process hold or wait for the lock.
+  // Held by the thread of this process that holds the lock or waits for it. The lock uses a
+  // connection of its own, because its holder needs another connection for queries.
   std::binary_semaphore own_turn_{1};
   // The idle connection for the lock, used only while own_turn_ is acquired. Null if there is none,
   // and while the lock is held.

@@ -13,7 +13,7 @@ namespace vitrine::server::postgres {
 // references between the tables. Also checks the indices if the database has the extension amcheck
 // and the user may call it. Uses a connection of its own, so others may use the database at the
 // same time. Returns the faults, each in one line; empty if there are none. `url` is that of
-// open_database(). kIo if the server is unreachable.
+// open_database(). Fails with kIo if the server is unreachable.
 Expected<std::vector<std::string>> find_faults(const std::string& url);
 
 }  // namespace vitrine::server::postgres

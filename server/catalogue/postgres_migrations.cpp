@@ -4,9 +4,9 @@
 namespace vitrine::server::postgres {
 namespace {
 
-// The schema changes, numbered independently of SQLite's. The first step creates the tables that
-// SQLite has after its first six steps, and the revision number. The revision counts changes to
-// models and tokens, not the progress of jobs.
+// The schema changes. Their numbers are independent of those for SQLite. The first step creates the
+// revision number and the tables that SQLite has after its first six steps. The revision counts
+// changes to models and tokens, not the progress of jobs.
 constexpr const char* kSteps[] = {
     R"sql(
 CREATE TABLE model (

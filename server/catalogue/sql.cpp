@@ -29,9 +29,8 @@ void apply(DatabaseConnection& connection, std::span<const char* const> steps) {
   }
 }
 
-// Returns the version of the oldest programs that can still use tables of version `version`, or
-// nullopt if the database records none. A program's version is that of the tables for which it was
-// made.
+// Returns the number of the oldest version of the tables whose programs can also use tables of
+// version `version`, or nullopt if the database does not record this.
 std::optional<std::int64_t> compatible_since(DatabaseConnection& connection, std::int64_t version) {
   const ScopedStatement row(connection.prepare("SELECT since FROM compatible WHERE version = ?"));
   if (!row->bind(version).step()) return std::nullopt;

@@ -19,7 +19,7 @@ namespace vitrine::server::sql {
 struct Failure : std::runtime_error {
   Failure(const std::string& message, ErrorCode kind, const char* next_step)
       : std::runtime_error(message), code(kind), advice(next_step) {}
-  ErrorCode code;      // kIo; kLimit if the disk is full; kUnsupported as in migrate()
+  ErrorCode code;      // kIo, or kLimit if the disk is full, or kUnsupported as in migrate()
   const char* advice;  // the next step for the operator
 };
 
@@ -32,8 +32,8 @@ inline Unexpected refused(const std::string& what, const Failure& failure) {
 inline constexpr const char* kRestore =
     "run 'vitrine doctor --scrub', or restore a backup with 'vitrine restore'";
 
-// Returns the value of an enumeration whose values are 0 to `last`. Throws a Failure if `value` is
-// none of them, because the row is damaged.
+// Returns the value of an enumeration whose values are 0 to `last`. Throws a Failure for any other
+// `value`, because the row is then damaged.
 template <class Enumeration>
 Enumeration checked(std::int64_t value, Enumeration last) {
   if (value >= 0 && value <= static_cast<std::int64_t>(last))

@@ -201,7 +201,7 @@ const std::string kRevokeToken =
     "UPDATE token SET revoked = ? WHERE id = ? AND revoked IS NULL RETURNING 1";
 
 // Stores `model` in the job's record. The job's row stays locked until the transaction ends, so
-// that no other daemon claims the job. kState if another daemon has already claimed it.
+// that no other daemon claims the job. Fails with kState if another daemon has already claimed it.
 Expected<void> hold_job(DatabaseConnection& connection, const std::optional<JobClaim>& by,
                         const ModelId& model) {
   if (!by) return {};

@@ -191,7 +191,8 @@ class SqlJobs final : public JobCatalogue {
                    "AND fence = ?15", job);
     });
   }
-  // The job's row stays locked until the transaction ends, so that no other daemon claims the job.
+  // Updates the scan if `by` still holds its job. The job's row stays locked until the transaction
+  // ends, so that no other daemon claims the job in the meantime.
   Expected<void> update(const ScanEntry& scan, const JobClaim& by) override {
     return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
       Transaction transaction(connection);
@@ -231,7 +232,8 @@ class SqlJobs final : public JobCatalogue {
       std::string places = "?";
       for (std::size_t i = 1; i < kinds.size(); ++i)
         places += ",?";
-      // The running jobs of an owner have its first turns.
+      // An owner's running jobs count as its first turns, so that owners with fewer running jobs
+      // come first.
       const ScopedStatement rows(connection.prepare(fmt::format(
           "SELECT {0} FROM job JOIN (SELECT id AS waiting, row_number() OVER "
           "(PARTITION BY owner, scanner ORDER BY CASE WHEN {2} THEN 1 ELSE 0 END, id) AS place "

@@ -6,14 +6,14 @@ namespace {
 
 using std::chrono::sys_days;
 
-// Daemons that share the catalogue add to the same row.
+// Adds to the row if it exists already, because several daemons may share the catalogue.
 const std::string kAddVisits =
     "INSERT INTO visit(model, day, visits, seconds, levels, complete) "
     "SELECT id, ?2, ?3, ?4, ?5, ?6 FROM model WHERE id = ?1 "
     "ON CONFLICT (model, day) DO UPDATE SET visits = visit.visits + excluded.visits, "
     "seconds = visit.seconds + excluded.seconds, levels = visit.levels + excluded.levels, "
     "complete = visit.complete + excluded.complete";
-// PostgreSQL's sum() of BIGINT is NUMERIC.
+// Casts the sums, because PostgreSQL's sum() of BIGINT values is NUMERIC.
 const std::string kVisitsByModel =
     "SELECT model.id, title, CAST(sum(visits) AS BIGINT), CAST(sum(seconds) AS BIGINT), "
     "CAST(sum(levels) AS BIGINT), CAST(sum(complete) AS BIGINT) "
@@ -57,8 +57,8 @@ class SqlVisits final : public VisitCatalogue {
  public:
   explicit SqlVisits(std::shared_ptr<sql::Database> database) : database_(std::move(database)) {}
 
-  // Rows are locked in the order of the map, so that two daemons that add at the same time do not
-  // deadlock.
+  // Adds the counts in the order of the map. Two daemons that add counts at the same time therefore
+  // lock rows in the same order and cannot deadlock.
   Expected<void> add(const VisitsOfDays& more) override {
     const auto run = [&](sql::DatabaseConnection& connection) -> Expected<void> {
       sql::Transaction transaction(connection);

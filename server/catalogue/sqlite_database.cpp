@@ -117,7 +117,7 @@ ALTER TABLE job ADD COLUMN owner TEXT NOT NULL DEFAULT '';
 )sql",
     // The indices contain all columns that matter, so that the integrity check finds a changed
     // value: it compares each row with its entries in the indices. Queries do not filter by the
-    // first columns of the guards, so the query planner does not choose them.
+    // first columns of these indices, so the query planner does not choose them.
     R"sql(
 CREATE INDEX model_guard ON model(
   created, state, title, creator, rights, licence, unit, file, file_bytes, head_bytes, faces,
@@ -135,7 +135,8 @@ CREATE INDEX token_guard ON token(created, role, hash, label, revoked);
 DROP INDEX chunk_of_model;
 CREATE INDEX chunk_of_model ON chunk(model, offset, length);
 )sql",
-    // The index guards the columns, as those above do, and finds the visits of some days.
+    // This index guards the columns of the table, as the indices above do. It also serves queries
+    // for a range of days.
     R"sql(
 CREATE TABLE visit (
   model BLOB NOT NULL REFERENCES model(id) ON DELETE CASCADE, day INTEGER NOT NULL,
@@ -146,7 +147,7 @@ CREATE TABLE visit (
 CREATE INDEX visit_of_day ON visit(day, visits, seconds, levels, complete);
 )sql",
 };
-// Programs for tables before version 8 cannot use the newest tables.
+// Programs made for tables before version 8 cannot use the newest tables.
 constexpr std::int64_t kSince = 8;
 
 class SqliteConnection final : public sql::DatabaseConnection {
@@ -163,13 +164,13 @@ class SqliteConnection final : public sql::DatabaseConnection {
   // when they start to write.
   void begin() override {
     if (sqlite3_get_autocommit(database_.handle()) == 0)
-      roll_back();  // an earlier rollback failed because memory ran out
+      roll_back();  // an earlier rollback failed for lack of memory
     run("BEGIN IMMEDIATE");
   }
   void roll_back() noexcept override {
     try {
       roll_back_.reset().step();
-    } catch (const std::exception&) {  // out of memory; begin() tries again
+    } catch (const std::exception&) {  // catches std::bad_alloc; the next begin() rolls back
     }
   }
   std::uint64_t revision() override {
@@ -186,7 +187,7 @@ class SqliteConnection final : public sql::DatabaseConnection {
 
  private:
   SqliteHandle database_;
-  // Prepared in advance, because a rollback may have to work without memory.
+  // Prepared in advance, because a rollback must work even if no memory is left.
   SqliteStatement roll_back_{database_, "ROLLBACK"};
   std::map<std::string, std::unique_ptr<SqliteStatement>> statements_;
 };

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kMostFaults = 20;
 
-// Whether the connection's last error reports a damaged file, and not a refusal by the operating
-// system.
+// Whether the connection's last error reports a damaged file. Returns false if the operating system
+// refused an operation.
 bool is_damage(const SqliteHandle& database) {
   const int code = sqlite3_errcode(database.handle());
   return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_IOERR;
@@ -56,8 +56,8 @@ bool has_object(const SqliteHandle& database, const sql::Statement& wanted) {
   return row.any();
 }
 
-// Compares the tables, indices and triggers with those that the migrations make. A database of
-// another version has others.
+// Compares the tables, indices and triggers with those that the migrations create. Skips databases
+// of another version, because their schema differs.
 void add_schema_faults(const SqliteHandle& database, std::vector<std::string>& faults) {
   SqliteStatement encoding(database, "PRAGMA encoding");
   if (!encoding.step() || encoding.text(0) != "UTF-8")

@@ -9,8 +9,8 @@
 
 namespace vitrine::server {
 
-// Thread-safe. Memory is bounded by the number of models: the caller counts only visits to models
-// that exist.
+// Thread-safe. Uses memory in proportion to the number of models, because callers count only visits
+// to models that exist.
 class VisitCounter {
  public:
   // The catalogue must outlive the counter.
@@ -22,8 +22,8 @@ class VisitCounter {
   // catalogue's error.
   Expected<void> flush();
 
-  // Calls flush() and returns the catalogue, which then has all visits that this object has
-  // counted. Fails as flush() does.
+  // Calls flush() and returns the catalogue, which then includes all visits counted so far. Fails
+  // as flush() does.
   Expected<VisitCatalogue*> flushed();
 
  private:

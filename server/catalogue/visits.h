@@ -57,8 +57,8 @@ struct DayVisits {
 };
 
 // Safe to use from several threads at once, and by several processes on the same data. When a model
-// is removed from the catalogue, its rows are removed, too. Errors: kIo if the database fails,
-// kLimit if the disk is full.
+// is removed from the catalogue, its rows are removed, too. All functions fail with kIo if the
+// database fails and with kLimit if the disk is full.
 class VisitCatalogue {
  public:
   virtual ~VisitCatalogue() = default;
@@ -71,7 +71,8 @@ class VisitCatalogue {
   virtual Expected<std::vector<ModelVisits>> by_model(const DayRange& range,
                                                       std::uint32_t limit) = 0;
 
-  // Returns the counts of each model and day, ordered by day and model. Returns at most `limit`.
+  // Returns the counts of each model and day, ordered by day and model. Returns at most `limit`
+  // rows.
   virtual Expected<std::vector<DayVisits>> by_day(const DayRange& range, std::uint32_t limit) = 0;
 };
 

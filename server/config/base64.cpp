@@ -9,8 +9,8 @@
 
 namespace vitrine::server {
 
-// Checks the letters here, because OpenSSL ignores blanks around them and accepts padding among
-// them.
+// Checks the letters itself, because OpenSSL ignores surrounding blanks and accepts padding between
+// letters.
 std::optional<std::string> decode_base64(std::string_view text) {
   const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '/'; };

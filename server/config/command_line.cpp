@@ -68,8 +68,8 @@ class Draft {
   }
 
  private:
-  // Returns the place of a setting for an error message. The name of a flag or variable contains
-  // the key. The place of a line in a file does not, so the key is added.
+  // Returns where a setting was made, for an error message. The name of a flag or variable already
+  // contains the key. A line of a file does not, so the key is added.
   static std::string place_of(const Option& option, const SettingSource& setting) {
     if (setting.source == flag_name(option) || setting.source == environment_name(option))
       return setting.source;
@@ -120,8 +120,8 @@ Expected<void> read_config(const std::string& path, const ReadFile& read_file, D
 constexpr std::array<std::string_view, 4> kOfTests{"VITRINE_MODELS", "VITRINE_FUZZ_SECONDS",
                                                    "VITRINE_CHROMIUM", "VITRINE_NO_SKIPS"};
 
-// Whether a variable whose name begins with VITRINE_ is not a setting. The tests use some such
-// variables, and Kubernetes sets others for a service named "vitrine".
+// Whether a variable whose name begins with VITRINE_ is not a setting. The tests use some variables
+// of this kind. Kubernetes sets others if a service is named "vitrine".
 bool is_foreign(std::string_view name, std::string_view value) {
   return std::ranges::find(kOfTests, name) != kOfTests.end() ||
          name.starts_with("VITRINE_SERVICE_") ||

@@ -39,7 +39,7 @@ Expected<CommandLine> parse_command_line(std::span<const std::string_view> argum
                                          std::span<const std::string_view> environment,
                                          const ReadFile& read_file);
 
-std::string reference();  // returns the text of --help
+std::string reference();  // returns the help text about all settings
 // Returns a commented configuration file with these settings.
 std::string print_config(const CommandLine& line);
 

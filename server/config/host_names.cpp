@@ -13,8 +13,8 @@ bool is_port(std::string_view text) {
                           }));
 }
 
-// Returns the host of "HOST:PORT" without brackets and without the dot that may end a name. Empty
-// if the text has another form.
+// Returns the host of "HOST:PORT", without brackets and without a final dot. Returns an empty text
+// if `host` has another form.
 std::string_view without_port(std::string_view host) {
   const bool has_brackets = host.starts_with('[');
   const std::size_t end = host.find(has_brackets ? ']' : ':');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides by the Host field whether to answer a request. A page of another site can make its own
-// name resolve to the daemon's address (DNS rebinding). Its requests then name a host that is not
-// the daemon's, so they are refused.
+// Decides by the Host field whether to answer a request. This prevents DNS rebinding: a page of
+// another site can make its own host name resolve to the daemon's address. The requests of that
+// page then name a host that is not the daemon's, so they are refused.
 #pragma once
 
 #include <string_view>
@@ -12,7 +12,8 @@ namespace vitrine::server {
 
 // Whether `host`, the value of a Host field with or without a port, names this daemon: it is the
 // host of public-url or scan-address, an entry of the setting hosts, localhost, or a numeric
-// address, which no DNS server resolves. Also true for an empty value, which no browser sends.
+// address, which DNS rebinding cannot use. Also true for an empty value, because browsers never
+// send one.
 bool is_own_host(const Settings& settings, std::string_view host);
 
 // Whether the daemon answers requests for `host` on 'listen': its own hosts, or every host if

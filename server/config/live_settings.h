@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the settings in force, which are replaced as a whole. Replaced settings stay valid for
-// their readers; reloads are rare, so all of them fit in memory.
+// Holds the current settings, which are replaced as a whole. Replaced settings are never freed, so
+// that references to them stay valid. Reloads are rare, so all settings fit in memory.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,8 @@ class LiveSettings {
  public:
   explicit LiveSettings(Settings settings) { replace(std::move(settings)); }
 
-  // Takes no lock, because every request calls it. The reference is valid as long as this object.
+  // Does not lock a mutex, because every request calls this function. The reference is valid as
+  // long as this object.
   const Settings& get() const { return *current_.load(std::memory_order_acquire); }
   void replace(Settings settings) {
     const std::scoped_lock lock(mutex_);
@@ -27,8 +28,8 @@ class LiveSettings {
 
  private:
   std::mutex mutex_;                      // guards `all_`
-  std::deque<Settings> all_;              // all settings that were ever in force
-  std::atomic<const Settings*> current_;  // the last of `all_`
+  std::deque<Settings> all_;              // all settings since the start of the daemon
+  std::atomic<const Settings*> current_;  // the last element of `all_`
 };
 
 }  // namespace vitrine::server

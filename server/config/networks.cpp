@@ -84,8 +84,8 @@ bool Networks::contain(std::string_view address) const {
 
 namespace {
 
-// Returns the network prefix of an address as text. Appends a slash and the number of bits unless
-// the prefix is the whole address. Returns text that is not an address unchanged.
+// Returns the network prefix of an address as text. Appends a slash and the number of bits if the
+// prefix is shorter than the address. Returns text that is not an address unchanged.
 std::string prefix_of(std::string_view address, unsigned ipv4_bits, unsigned ipv6_bits) {
   const std::string zeroed(address);
   std::array<std::uint8_t, 16> bytes{};

@@ -36,14 +36,14 @@ class Networks {
   bool has_unix_ = false;
 };
 
-// Returns the network that counts as one client for all limits. This is the address itself for an
-// IPv4 address, even in IPv6-mapped form. For an IPv6 address, it is the prefix of 64 bits, since
-// addresses that share it belong to one subscriber ([RFC6177]). Returns text that is not an address
-// unchanged.
+// Returns the network whose clients share one budget in all limits. For an IPv4 address, even in
+// IPv6-mapped form, this is the address itself. For an IPv6 address, it is the prefix of 64 bits,
+// because addresses with the same prefix belong to one subscriber ([RFC6177]). Returns text that is
+// not an address unchanged.
 std::string network_of(std::string_view address);
 
-// Returns a network of many subscribers in place of an address, so that a log names no person: 24
-// bits of an IPv4 address, even in IPv6-mapped form, and 48 bits of an IPv6 address. Returns text
+// Returns a shortened address for logs, so that a log identifies no person: the first 24 bits of an
+// IPv4 address, even in IPv6-mapped form, or the first 48 bits of an IPv6 address. Returns text
 // that is not an address unchanged.
 std::string shortened(std::string_view address);
 

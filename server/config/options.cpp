@@ -47,7 +47,7 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
   std::string_view host = text.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   if (host == "localhost") host = "127.0.0.1";
-  if (!is_address(host.substr(0, host.find('%')))) {  // ignores a zone, as in fe80::1%eth0
+  if (!is_address(host.substr(0, host.find('%')))) {  // ignores an IPv6 zone, as in fe80::1%eth0
     return fail(
         ErrorCode::kBadInput,
         fmt::format("'{}' is not a numeric address; give, for example, 127.0.0.1 or [::1]", host));

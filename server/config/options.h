@@ -29,8 +29,8 @@ enum class OptionType {
 };
 
 struct Option {
-  // Names the option: flag --key, environment variable VITRINE_KEY with underscores, line "key =
-  // value" in the file.
+  // The name of the option: flag --key, environment variable VITRINE_KEY (with underscores instead
+  // of hyphens), and line "key = value" in the configuration file.
   std::string_view key;
   OptionType type;
   std::string_view default_value;

@@ -17,7 +17,7 @@ struct Reload {
 };
 
 // Combines the current configuration with a newly read one. Fails with kBadInput if a value of
-// `fresh` is refused; `current` then stays in force.
+// `fresh` is invalid; the caller then keeps `current`.
 Expected<Reload> reload(const CommandLine& current, const CommandLine& fresh);
 
 // Formats a list of keys, such as "public-url, stop-timeout". Returns "nothing" for an empty list.

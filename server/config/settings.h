@@ -36,7 +36,8 @@ struct ConnectionShare {
   bool operator==(const ConnectionShare&) const = default;
 };
 
-// Returns the number of connections of a share, at least 1; SIZE_MAX if there is no limit.
+// Returns the number of connections that a share allows: at least 1, or SIZE_MAX if there is no
+// limit.
 inline std::size_t connections_of(const ConnectionShare& share, std::size_t max_connections) {
   if (share.value == 0) return SIZE_MAX;
   if (!share.is_percentage) return share.value;
@@ -48,8 +49,9 @@ struct Settings {
   Endpoint admin_listen;
   Roles roles;
   std::filesystem::path data;
-  std::filesystem::path uploads;  // empty: in the data folder
-  std::string store, catalogue;   // URLs; if one is empty, the data folder is used
+  std::filesystem::path uploads;  // empty: a folder in the data folder
+  // URLs of object store and catalogue; if one is empty, the data folder is used
+  std::string store, catalogue;
   std::string store_access_key, store_secret_key;
   std::filesystem::path port_file;        // empty: no such file is written
   std::filesystem::path admin_port_file;  // empty: no such file is written
@@ -80,19 +82,19 @@ struct Settings {
   std::string webhook_key;  // bytes of the key that signs webhooks; empty: they are not signed
   std::vector<std::string> purge_urls;          // URLs of caches, without a slash at the end
   std::vector<std::filesystem::path> scanners;  // paths of rig.json files
-  // URL under which other daemons reach this daemon, without a slash at its end. Empty if they
-  // cannot reach it.
+  // URL at which other daemons reach this daemon, without a slash at its end. Empty if other
+  // daemons cannot reach it.
   std::string scan_address;
   std::filesystem::path tls_certificate;  // empty: the daemon does not use TLS
   std::filesystem::path tls_key;
   Networks trusted_proxies;
   ConnectionShare max_connections_per_address;
-  // Requests per second of each address and of each token. 0: no limit.
+  // Requests per second that each address and each token may send. 0: no limit.
   std::uint32_t request_rate = 0;
   // Bytes per second that a client must receive on average; 0: no minimum.
   std::uint32_t min_rate = 0;
-  // Prefix of all URLs, without a slash at its end. If it is empty, the prefix is taken from the
-  // request.
+  // Prefix of all absolute URLs, without a slash at its end. If it is empty, the prefix is taken
+  // from each request.
   std::string public_url;
 };
 

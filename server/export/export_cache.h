@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cache of exported files and posters that drops the least recently used file first. If several
-// requests need the same file at once, the file is made once and all of them get it. The cache does
-// not keep a file larger than its capacity. Requests share such a file while one of them sends it.
+// requests need the same file at the same time, the file is made once and all requests get it. The
+// cache does not keep a file larger than its capacity, but requests can share such a file as long
+// as one of them is sending it.
 #pragma once
 
 #include <atomic>
@@ -22,7 +23,8 @@ namespace vitrine::server {
 
 struct ExportedFile {
   std::vector<std::uint8_t> bytes;
-  // A hash of the bytes. It changes if a new version of the writer produces other bytes.
+  // A hash of the bytes, used as entity tag. If a new version of the writer produces other bytes,
+  // the tag changes.
   std::string etag;
 };
 
@@ -37,12 +39,14 @@ class ExportCache {
   bool keeps_files();  // whether the capacity is more than 0
 
   File find(const std::string& key);  // returns null if the file is not cached
-  // Adds a file. A file larger than the capacity can be found only while a caller holds it.
+  // Adds a file. find() returns a file larger than the capacity only as long as some caller holds
+  // it.
   void insert(const std::string& key, File file);
 
   // Returns the file under `key`. If there is none, calls `make`, which returns
-  // Expected<std::vector<std::uint8_t>>. If several callers need a key at once, one of them calls
-  // `make`. The others wait and get the same result, even an error or an exception.
+  // Expected<std::vector<std::uint8_t>>. If several callers need a key at the same time, one of
+  // them calls `make`. The other callers wait and get the same result, even if it is an error or an
+  // exception.
   template <class Make>
   Expected<File> find_or_make(const std::string& key, const Make& make) {
     std::promise<Expected<File>> result;
@@ -72,8 +76,8 @@ class ExportCache {
   // if the caller must make the file itself.
   std::optional<Result> find_or_announce(const std::string& key,
                                          std::promise<Expected<File>>& result);
-  // Called after the file under `key` was made. Removes its entry in in_the_making_ and returns the
-  // result.
+  // Called after the file under `key` was made. Removes the key's entry from in_the_making_ and
+  // returns the result.
   Expected<File> finish(const std::string& key);
   Expected<File> keep(const std::string& key, Expected<std::vector<std::uint8_t>> bytes);
   File find_held(const std::string& key);
@@ -84,7 +88,7 @@ class ExportCache {
   std::uint64_t bytes_ = 0;
   std::list<Entry> entries_;  // most recently used first
   std::unordered_map<std::string, std::list<Entry>::iterator> by_key_;
-  // Files larger than the capacity. They can be found only while a caller holds them.
+  // Files larger than the capacity. An entry is usable only as long as some caller holds the file.
   std::unordered_map<std::string, std::weak_ptr<const ExportedFile>> large_;
   std::unordered_map<std::string, Result> in_the_making_;
 };

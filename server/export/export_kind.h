@@ -14,7 +14,7 @@ namespace vitrine::server {
 
 struct ExportKind {
   MeshFormat format;
-  bool is_zip = false;  // only for formats with companions
+  bool is_zip = false;  // may be true only for formats with companions
 };
 
 // The formats that can be packed into a zip with their pictures.
@@ -38,8 +38,8 @@ inline constexpr FixedText kZipExtensions =
 inline constexpr FixedText kZipChoice =
     concatenate(join(kZipFormats, extension_of_format, ".zip,", ".zip,"), ".zip");
 
-// Returns the kind of an export by the end of its file name, such as "bust.glb" or "bust.obj.zip".
-// Upper and lower case are equal. Returns nullopt for other names.
+// Returns the kind of an export from the end of its file name, such as "bust.glb" or
+// "bust.obj.zip". Ignores the case of letters. Returns nullopt for other names.
 std::optional<ExportKind> export_kind_of(std::string_view file_name);
 
 // Returns the name of a file without its folder and without the extensions that choose its kind.

@@ -11,9 +11,9 @@
 
 namespace vitrine::server {
 
-// Returns a zip archive of the files, in their order. Compresses fast, because pictures are
-// compressed already. Equal files give equal bytes: no entry has a time. Fails (kIo) if the archive
-// cannot be written.
+// Returns a zip archive of the files, in their order. Uses fast compression, because pictures are
+// already compressed. Equal files give equal archives, because entries have no time stamps. Fails
+// (kIo) if the archive cannot be written.
 Expected<std::vector<std::uint8_t>> zip(std::span<const MeshFile> files);
 
 }  // namespace vitrine::server

@@ -16,7 +16,7 @@ tl::expected<AdmissionLimit::Pass, AdmissionLimit::Refusal> AdmissionLimit::admi
     ++own;
     ++admitted_;
   }
-  // If the constructor of Pass throws, it calls on_release, so the task is no longer counted.
+  // If the constructor of Pass throws, it calls `on_release`, so the task is no longer counted.
   return Pass(this, std::move(on_release));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits how many tasks may run or wait at a time, in all and for each address.
+// Limits how many tasks may run or wait at the same time, in total and per address.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace vitrine::server {
 
-// Thread-safe. Must be owned by a shared pointer, since each pass keeps the limit alive.
+// Thread-safe. Must be owned by a shared pointer, because each pass keeps the limit alive.
 class AdmissionLimit : public std::enable_shared_from_this<AdmissionLimit> {
  public:
   AdmissionLimit(std::size_t capacity, std::size_t per_address)

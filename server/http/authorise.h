@@ -16,19 +16,19 @@ struct Credentials {
   std::string_view request_id;
 };
 
-// Whether authorise() must be called for the request. A route without a role needs this call only
-// if the request has a token and the handler does not run inline.
+// Whether authorise() must be called for the request. If the route needs no role, the call is
+// needed only if the request has a token and the handler does not run inline.
 bool needs_authorisation(const Route& route, const RequestHeader& header);
 
 struct Authorisation {
-  // The owner of the token; nullopt if the request has no valid token.
+  // The caller as the owner of the token; nullopt if the request has no valid token.
   std::optional<Caller> caller;
   // The response if the request is refused: 401 if there is no valid token, 403 if the token's role
   // does not suffice, 429 if this address has sent too many unknown tokens, 503 if the catalogue
   // cannot be read.
   std::optional<Response> refusal;
 };
-// Authorises a request. May block while it reads the catalogue.
+// Authorises a request. May block to read the catalogue.
 Authorisation authorise(const Route& route, const Credentials& credentials,
                         const HttpDependencies& with);
 // Authorises a request without blocking. Returns nullopt if the catalogue must be read.

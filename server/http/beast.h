@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Includes Boost.Asio with coroutines, and the parts of Boost.Beast that parse requests. Include
-// this header in few files, since it is slow to compile.
+// this header in few files, because it is slow to compile.
 #pragma once
 
 #include <boost/asio/awaitable.hpp>

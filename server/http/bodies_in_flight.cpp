@@ -41,8 +41,8 @@ std::shared_ptr<const void> BodiesInFlight::admit(const Body& body, const std::s
   const bool is_static = shared != nullptr && shared->owner == nullptr;
   if (std::holds_alternative<StoredBytes>(body) || is_static || size < kSmall)
     return {std::shared_ptr<const void>(), this};
-  // The owner's address is a key of shared_. This copy keeps the owner alive until leave(), so that
-  // no other owner gets the same address.
+  // The address of the owner is a key of shared_. This copy keeps the owner alive until leave(), so
+  // that no other object can get the same address in the meantime.
   const auto owner = shared != nullptr ? shared->owner : nullptr;
   if (!enter(owner.get(), size, network)) return nullptr;
   return {static_cast<const void*>(this),

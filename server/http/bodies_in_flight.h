@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits the memory of responses that are being sent, since slow clients can hold it for a long
+// Limits the memory of responses that are being sent, because slow clients can occupy it for a long
 // time.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace vitrine::server {
 
-// Thread-safe. Must be owned by a shared pointer, since the results of admit() keep it alive.
+// Thread-safe. Must be owned by a shared pointer, because the results of admit() keep it alive.
 class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
  public:
   // `max_bytes`: limit on the total size of the responses being sent.
@@ -21,14 +21,14 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
 
   void set_capacity(std::uint64_t max_bytes) { max_bytes_ = max_bytes; }
 
-  // Admits a body for `network` (network_of()), or returns null if there is no room. A network to
-  // which other bodies are being sent may fill half of the memory only. The caller must keep the
-  // result until `body` is sent. A text counts with its size. Shared memory counts once, however
-  // many connections send it. Stored bytes, static memory and bodies smaller than kSmall bytes do
-  // not count.
+  // Admits a body for `network` (network_of()), or returns null if there is no room. If other
+  // bodies are being sent to the same network, the network may fill only half of the memory. The
+  // caller must keep the result until `body` is sent. A text counts with its size. Shared memory
+  // counts once, even if several connections send it. Stored bytes, static memory and bodies
+  // smaller than kSmall bytes do not count.
   std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
-  // Whether the body would be admitted if no other response were being sent.
+  // Whether the body would be admitted if no other responses were being sent.
   bool fits_alone(const Body& body) const { return body_size(body) <= max_bytes_; }
 
   static constexpr std::uint64_t kSmall = 16 * 1024;
@@ -48,7 +48,8 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   std::mutex mutex_;  // guards the members below
   std::uint64_t bytes_ = 0;
   std::unordered_map<const void*, Shared> shared_;
-  std::unordered_map<std::string, std::size_t> counted_;  // per network: the bodies that count
+  // per network: number of bodies that count
+  std::unordered_map<std::string, std::size_t> counted_;
 };
 
 }  // namespace vitrine::server

@@ -12,8 +12,8 @@ void close(Connection& connection) {
   connection.socket.close(ignored);
 }
 
-// Closes the connection if its deadline has passed, or only cancels the read of a body. Checks the
-// deadline again, since it may have been extended after the sweep.
+// If the connection's deadline has passed, closes the connection, or only cancels the read if a
+// body is being read. Checks the deadline again, because it may have been extended since the sweep.
 void close_if_expired(Connection& connection) {
   if (!connection.expired()) return;
   boost::system::error_code ignored;

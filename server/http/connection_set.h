@@ -17,7 +17,7 @@ namespace vitrine::server {
 // Thread-safe.
 class ConnectionSet {
  public:
-  // Admits `capacity` connections in all, and `per_address` connections of each network
+  // Admits `capacity` connections in total, and `per_address` connections of each network
   // (network_of()). Trusted proxies are exempt from the limit per network.
   ConnectionSet(std::size_t capacity, std::size_t per_address, Networks proxies = {})
       : proxies_(std::move(proxies)), capacity_(capacity), per_address_(per_address) {}
@@ -27,7 +27,7 @@ class ConnectionSet {
   void remove(const Connection& connection);
 
   // Counts a connection from a proxy towards the limit of `client`, the address behind the proxy.
-  // Call it only for a connection that will serve this client alone. If the client has reached its
+  // Call this only for a connection that serves no other clients. If the client has reached its
   // limit, returns false and changes nothing.
   bool count_as(Connection& connection, const std::string& client);
 
@@ -35,7 +35,8 @@ class ConnectionSet {
   using MayContinue = std::function<bool()>;
   // Registers a long-lived connection, for which end_forbidden() calls `may_continue`.
   void lasts_while(const Connection& connection, MayContinue may_continue);
-  // Asks the registered connections that may not continue to end, as drain() does. Blocks.
+  // Asks the registered connections that may no longer continue to end, in the same way as drain().
+  // Blocks.
   void end_forbidden();
 
   // Changes the limits for new connections. Open connections stay open.

@@ -13,8 +13,8 @@ namespace {
 using beast::http::verb;
 
 constexpr std::size_t kMaxTarget = 8 * 1024;
-// Size in bytes of the largest JSON that a thread that serves connections compresses. This takes
-// about a millisecond.
+// Size in bytes of the largest JSON that is compressed on a thread that serves connections.
+// Compression of this size takes about a millisecond.
 constexpr std::size_t kMostCompressedInline = 64 * 1024;
 // Size in bytes of the largest JSON that a worker compresses.
 constexpr std::size_t kMostCompressed = 4 * 1024 * 1024;
@@ -49,7 +49,8 @@ verb method_sent(const RequestHeader& header) {
   return real == verb::patch || real == verb::delete_ ? real : verb::post;
 }
 
-// Whether the listener answers requests for the host that this request names (DNS rebinding).
+// Whether the listener answers requests for the host that the request names (protection from DNS
+// rebinding).
 bool is_answered_host(const RequestHeader& header, const HttpOptions& options) {
   const auto host = header[beast::http::field::host];
   return !options.answers_to || options.answers_to({host.data(), host.size()});
@@ -70,7 +71,8 @@ Response options(std::string allow, bool is_public_read) {
   return response;
 }
 
-// Returns the request's origin if its pages may send any request, else an empty string.
+// Returns the origin of the request if pages of this origin may send any request, else an empty
+// string.
 std::string trusted_origin_of(const RequestHeader& header, const HttpOptions& options) {
   const auto sent = header[beast::http::field::origin];
   const bool is_trusted =
@@ -78,7 +80,7 @@ std::string trusted_origin_of(const RequestHeader& header, const HttpOptions& op
   return is_trusted ? std::string(sent) : std::string();
 }
 
-// Allows pages of a trusted origin to send what a preflight asks for.
+// Allows the fields and methods that a preflight requests, for pages of a trusted origin.
 void allow_all(const RequestHeader& header, Response& response) {
   const auto wanted = header[beast::http::field::access_control_request_headers];
   std::erase_if(response.fields,
@@ -104,7 +106,7 @@ Response not_admitted(AdmissionLimit::Refusal why, std::string_view id) {
   return response;
 }
 
-// Returns the owner for whom the request takes turns: its token, or its network if it has no token.
+// Returns the owner of the request for fair queueing: its token, or its network if it has no token.
 std::string owner_of(const Exchange& exchange) {
   return exchange.caller ? exchange.caller->token.to_string() : network_of(exchange.client.address);
 }
@@ -113,7 +115,7 @@ bool takes_json(const Route& route) {
   return route.reads_body && (route.method == Method::kPost || route.method == Method::kPatch);
 }
 
-// Sets the response and returns true if the route can answer from memory.
+// If the route can answer from memory, sets the response and returns true.
 bool answer_at_once(const Request& request, Exchange& exchange) {
   if (!exchange.route->quick) return false;
   auto quick = exchange.route->quick(request);
@@ -144,7 +146,7 @@ void Dispatcher::count_error(Exchange& exchange) {
   static_cast<void>(has_no_call_left(network_of(exchange.client.address), exchange));
 }
 
-// Sets the route, or the response if no handler is needed to make it.
+// Sets the route. If no handler is needed, sets the response instead.
 void Dispatcher::find_route(const RequestParser::value_type& request, Exchange& exchange) const {
   const auto target = split_target(target_of(request));
   if (!target || request.target().size() > kMaxTarget) {
@@ -266,8 +268,8 @@ asio::awaitable<void> Dispatcher::handle(const Request& request, Exchange& excha
   co_await on_worker(route.executor, run);
 }
 
-// Calls the handler and catches its exceptions (out of memory, an unexpected library error), so
-// that only this request fails.
+// Calls the handler and catches its exceptions, such as std::bad_alloc, so that only this request
+// fails.
 Response Dispatcher::guarded(const Route& route, const Request& request) {
   const bool is_inline = route.executor == Executor::kInline;
   try {
@@ -297,7 +299,7 @@ asio::awaitable<bool> Dispatcher::pour(RequestParser& parser, Exchange& exchange
   co_return read == ReadResult::kRead;
 }
 
-// Runs `task` on a worker while this connection waits. Other connections are served.
+// Runs `task` on a worker. This connection waits; other connections are served in the meantime.
 template <class Task>
 asio::awaitable<void> Dispatcher::on_worker(Executor executor, const Task& task) {
   connection_.never_expires();

@@ -7,18 +7,18 @@
 
 namespace vitrine::server {
 
-// May be used only on the connection's strand.
+// Use this only on the connection's strand.
 class Dispatcher {
  public:
   Dispatcher(Connection& connection, HttpServer& server, RequestReader& reader)
       : connection_(connection), server_(server), reader_(reader) {}
 
-  // If the response is an error or comes from no route, counts the request towards its client's
-  // request rate, unless that was done before. Such responses are logged, so they must not be free.
-  // Beyond the rate, the response becomes 429.
+  // Counts the request towards its client's request rate if the response is an error or comes from
+  // no route, unless the request has already been counted. Such responses are logged, so their rate
+  // must be limited. If the client exceeds the rate, the response becomes 429.
   void count_error(Exchange& exchange);
 
-  // Sets exchange.response. Returns false if there is no response to send, since the peer has
+  // Sets exchange.response. Returns false if there is no response to send, because the peer has
   // disconnected or the server drains.
   asio::awaitable<bool> dispatch(RequestParser& parser, Exchange& exchange);
 

@@ -11,8 +11,8 @@
 namespace vitrine::server {
 namespace {
 
-// Whether the peer has disconnected. The caller must poll this, since nothing reads from
-// the connection. Bytes that the peer has sent stay in the socket.
+// Whether the peer has disconnected. The caller must poll this function, because no read is pending
+// that would report it. Does not remove bytes that the peer has sent from the socket.
 bool has_left(Connection& connection) {
   char byte;
   const ssize_t count =

@@ -20,10 +20,10 @@ struct Exchange {
   std::string id = next_request_id();
   Connection::Clock::time_point start = Connection::Clock::now();
   Client client;
-  // Index into Router::templates(), or SIZE_MAX if no route matches.
+  // Index of the route's path in Router::templates(), or SIZE_MAX if no route matches.
   std::size_t route_template = SIZE_MAX;
   PathParameters parameters;
-  // Null until a route is found, and if the response needs no handler.
+  // Null until a route is found, and null if the response needs no handler.
   const Route* route = nullptr;
   std::optional<Caller> caller;
   nlohmann::json body = nlohmann::json::object();
@@ -35,8 +35,8 @@ struct Exchange {
   bool keep_alive = true;
   Response response;
 
-  // Sets an error response and closes the connection after it, since it is unknown where the next
-  // request would start.
+  // Sets an error response. The connection closes after it, because the start of the next request
+  // is unknown.
   void reject(unsigned status, std::string_view detail) {
     response = problem(status, detail, id);
     keep_alive = false;

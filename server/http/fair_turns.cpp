@@ -42,8 +42,8 @@ std::shared_ptr<FairTurns::Waiter> FairTurns::take_next() {
   return std::move(*next);
 }
 
-// The caller must not hold the lock. If memory runs out, the turn ends here, and end() acquires the
-// lock.
+// Starts the waiter's turn. The caller must not hold the lock: if memory runs out, the turn ends
+// immediately, and end() acquires the lock.
 void FairTurns::begin(const std::shared_ptr<Waiter>& waiter) {
   auto on_end = [self = shared_from_this(), target = std::move(waiter->target)](const void*) {
     self->end(target);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets a few tasks run at a time. The tasks that wait get their turns owner by owner, so that an
-// owner with many tasks delays each other owner by one task only.
+// Limits how many tasks run at the same time. Waiting tasks get their turns owner by owner, so that
+// an owner with many tasks delays each other owner by one task only.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace vitrine::server {
 
-// Thread-safe. Must be owned by a shared pointer, since each turn keeps the object alive.
+// Thread-safe. Must be owned by a shared pointer, because each turn keeps the object alive.
 class FairTurns : public std::enable_shared_from_this<FairTurns> {
  public:
   explicit FairTurns(std::size_t at_a_time) : free_(at_a_time) {}
@@ -24,7 +24,7 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
   // on a strand.
   asio::awaitable<Turn> wait(std::string owner, std::string target);
 
-  void stop();  // gives no further turns
+  void stop();  // makes no further turns begin
 
  private:
   struct Waiter {

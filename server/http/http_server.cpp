@@ -9,8 +9,8 @@
 namespace vitrine::server {
 namespace {
 
-// A connection that may no longer continue ends within a second. That includes this interval and
-// the time of the check.
+// Interval between two sweeps. A connection that may no longer continue must end within one second,
+// which includes this interval and the time for the check.
 constexpr std::chrono::milliseconds kSweepInterval{500};
 
 // Sends `text` without waiting for the peer. The text is lost if the socket cannot accept it at
@@ -58,7 +58,7 @@ void HttpServer::start() {
   const auto failed = [this](std::string_view fault) {
     dependencies_.events.event(Severity::kError, fault);
   };
-  // Accepting fails if descriptors or memory have run out. The server tries again, since
+  // Accepting fails if descriptors or memory have run out. The server then tries again, because
   // connections free both when they end.
   asio::co_spawn(strand_,
                  keep_trying(
@@ -105,7 +105,7 @@ asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) 
   dependencies_.metrics.connections.fetch_add(1, std::memory_order_relaxed);
   try {
     co_await run_session(connection, *this);
-  } catch (const std::exception& fault) {  // out of memory: ends only this connection
+  } catch (const std::exception& fault) {  // for example std::bad_alloc; ends only this connection
     dependencies_.events.event(Severity::kError, fault.what());
   }
   dependencies_.metrics.connections.fetch_sub(1, std::memory_order_relaxed);
@@ -127,8 +127,8 @@ void HttpServer::lasts_while(const Connection& connection, const std::optional<C
   });
 }
 
-// Ends long-lived connections that may not continue. A worker reads the catalogue, since that may
-// block. Only one check runs at a time.
+// Ends long-lived connections that may no longer continue. The check runs on a worker, because
+// reading the catalogue may block. Only one check runs at a time.
 void HttpServer::end_forbidden() {
   if (!permission_check_.expired()) return;
   const auto check = std::make_shared<int>();

@@ -33,7 +33,7 @@ struct HttpOptions {
   // Whether pages of this origin may send any request and read its response (CORS); empty: never.
   // Must be thread-safe.
   std::function<bool(std::string_view origin)> trusts_origin = {};
-  // Whether pages of all origins may read responses that need no token.
+  // Whether pages of all origins may read responses for which no token is needed.
   bool is_read_by_pages = true;
   bool is_recorded = true;          // whether requests appear in the access log and the metrics
   bool shortens_addresses = false;  // whether the logs name networks instead of addresses
@@ -44,7 +44,7 @@ struct HttpOptions {
   Networks proxies = {};
   std::uint32_t request_rate = 0;            // requests per second; see RateLimit
   std::uint32_t min_rate = 0;                // bytes per second; see Pace
-  std::uint64_t answer_memory = UINT64_MAX;  // bytes; see BodiesInFlight
+  std::uint64_t answer_memory = UINT64_MAX;  // limit in bytes; see BodiesInFlight
 };
 
 // The parts of the daemon that the server uses. They must be thread-safe and outlive the server.
@@ -76,14 +76,15 @@ class HttpServer {
   };
   void set_limits(const Limits& limits);
 
-  // The functions below are for the sessions.
+  // Only sessions call the functions below.
   const Router& router() const { return router_; }
   const HttpOptions& options() const { return options_; }
   const HttpDependencies& dependencies() const { return dependencies_; }
   Workers& workers() { return dependencies_.workers; }
   asio::io_context& io() { return io_; }
   RateLimit& rate_limit() { return rate_limit_; }
-  // Whether to log one more refused request of this address. Counts those that are not logged.
+  // Whether to log one more refused request of this address. Also counts the requests that are not
+  // logged.
   bool may_log_refusal(std::string_view address);
   BodiesInFlight& bodies() { return *bodies_; }
   ConnectionSet& connections() { return connections_; }
@@ -108,7 +109,7 @@ class HttpServer {
   const Router router_;
   ConnectionSet connections_;
   RateLimit rate_limit_;
-  // Refusals that are logged per address and second.
+  // Number of refusals that are logged per address and second.
   static constexpr std::uint32_t kLoggedRefusals = 10;
   RateLimit log_ration_{kLoggedRefusals};
   const std::shared_ptr<BodiesInFlight> bodies_;
@@ -118,7 +119,7 @@ class HttpServer {
   asio::steady_timer pause_;           // timer that delays the next accept after an error
   std::filesystem::path socket_file_;  // empty unless the server listens on a Unix socket
   asio::steady_timer sweeper_;
-  // Not expired while a worker checks which connections may continue.
+  // Expired unless a worker is checking which connections may continue.
   std::weak_ptr<const void> permission_check_;
 };
 

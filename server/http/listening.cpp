@@ -28,7 +28,7 @@ Unexpected cannot_listen(const Endpoint& endpoint, const error_code& error) {
                                                 : "choose another address"));
 }
 
-// Whether `endpoint.path` is a socket on which no process listens any more.
+// Whether `endpoint.path` is a socket file on which no process listens any more.
 bool is_left_over(const Endpoint& endpoint) {
   std::error_code ignored;
   if (!std::filesystem::is_socket(endpoint.path, ignored)) return false;

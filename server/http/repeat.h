@@ -26,8 +26,8 @@ inline asio::awaitable<void> repeat(asio::steady_timer& timer, asio::steady_time
   }
 }
 
-// Calls `attempt` again and again while `goes_on` returns true. If an attempt returns false or
-// throws, waits for `pause` before the next one. If an attempt throws, also calls `failed`.
+// Calls `attempt` repeatedly as long as `goes_on` returns true. If an attempt returns false or
+// throws, waits for `pause` before the next attempt. If an attempt throws, also calls `failed`.
 inline asio::awaitable<void> keep_trying(asio::steady_timer& timer,
                                          asio::steady_timer::duration pause,
                                          std::function<bool()> goes_on,

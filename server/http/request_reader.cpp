@@ -23,7 +23,8 @@ unsigned status_of(const boost::system::error_code& error) {
   return 400;
 }
 
-// Moves the request's header back from the piece parser, since the response depends on it.
+// Moves the request's header back from the parser of pieces, because the response depends on the
+// header.
 void give_header_back(PieceParser& from, RequestParser& to) {
   to.get().base() = std::move(from.get().base());
 }
@@ -111,8 +112,8 @@ asio::awaitable<ReadResult> RequestReader::read_pieces(RequestParser& parser, Ex
   co_return has_failed && !exchange.is_body_read ? ReadResult::kClosed : ReadResult::kRead;
 }
 
-// Answers `Expect: 100-continue`. A client that sends it waits for the answer before it sends the
-// body.
+// Handles a request with `Expect: 100-continue`: sends the interim response for which the client
+// waits before it sends the body.
 asio::awaitable<ReadResult> RequestReader::meet_expectation(const RequestHeader& header,
                                                             Exchange& exchange) {
   if (header.count(field::expect) == 0) co_return ReadResult::kRead;

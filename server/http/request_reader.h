@@ -18,7 +18,7 @@ enum class ReadResult {
   kClosed,    // the peer has disconnected, or the server drains
 };
 
-// May be used only on the connection's strand. Enforces all limits and timeouts of a request.
+// Use this only on the connection's strand. Enforces all limits and timeouts of a request.
 class RequestReader {
  public:
   // Receives a piece of the body; returns false to stop reading.
@@ -44,8 +44,8 @@ class RequestReader {
   asio::awaitable<ReadResult> meet_expectation(const RequestHeader& header, Exchange& exchange);
   ReadResult rejected(const boost::system::error_code& error, Exchange& exchange) const;
 
-  // Limit on the buffer's size in bytes. It is needed since the extensions of a chunked body have
-  // no limit of their own.
+  // Limit on the buffer's size in bytes. Beast itself does not limit the size of extensions in a
+  // chunked body.
   static constexpr std::size_t kMaxBuffer = 64 * 1024;
 
   Connection& connection_;

@@ -24,14 +24,14 @@ bool is_change(const Exchange& exchange) {
          exchange.route->method != Method::kOptions;
 }
 
-// Whether the request tried to change data that only callers with a role may change. Everybody may
-// report a visit, and the audit log does not record who did.
+// Whether the request tried to change data that only callers with a role may change. Reports of
+// visits are excluded: everybody may send them, and the audit log must not record who did.
 bool is_audited(const Exchange& exchange) {
   return is_change(exchange) && exchange.route->role != Role::kNone;
 }
 
-// Whether the log may leave out the request: a request beyond a rate, or a refused change. A client
-// can cause any number of these.
+// Whether the log may omit the request because its address has too many such requests: one beyond a
+// rate, or a refused change. A client can cause any number of these.
 bool is_rationed(const Exchange& exchange, unsigned status) {
   const bool is_refused = status >= 400 && status < kUnanswered;
   return exchange.is_beyond_rate || (is_refused && is_change(exchange));
@@ -93,7 +93,7 @@ void ResponseWriter::record(const Exchange& exchange, const RequestHeader& reque
                                              .status = status,
                                              .bytes = bytes,
                                              .seconds = seconds.count()});
-  // The flush is posted, so that pending requests are served first.
+  // Posts the flush to the event loop, so that pending requests are served first.
   if (waits) asio::post(server_.io(), [&log = with.access_log] { log.flush(); });
 }
 

@@ -11,7 +11,7 @@ namespace vitrine::server {
 // Status logged for a request whose peer disconnected before the response was sent.
 inline constexpr unsigned kUnanswered = 499;
 
-// May be used only on the connection's strand.
+// Use this only on the connection's strand.
 class ResponseWriter {
  public:
   ResponseWriter(Connection& connection, HttpServer& server)

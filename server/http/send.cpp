@@ -23,8 +23,8 @@ class SendDeadline {
  public:
   SendDeadline(Connection& connection, Pace pace) : connection_(connection), pace_(pace) {}
 
-  // Sets the deadline to `timeout` from now. If there is a minimum rate, `sent` bytes are due at a
-  // certain time at that rate, and the deadline is at most `timeout` after that time.
+  // Sets the deadline to `timeout` from now. If there is a minimum rate, the deadline is at most
+  // `timeout` after the time at which `sent` bytes are due at that rate.
   void renew(std::uint64_t sent) {
     Connection::Clock::duration left = pace_.timeout;
     if (pace_.min_rate > 0) {
@@ -102,7 +102,8 @@ asio::awaitable<std::uint64_t> send_memory(Connection& connection, Bytes bytes, 
 }
 
 iovec part_of(Bytes bytes) {
-  return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};  // the bytes are only read
+  // the constness is cast away for Asio, which only reads the bytes
+  return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};
 }
 
 // Sends `head` and then `body` from memory.
@@ -135,8 +136,8 @@ asio::awaitable<std::uint64_t> send_file(Connection& connection, int file, const
   co_return co_await send_all(connection, body.length, pace, write);
 }
 
-// Sends a stored object piece by piece. Used for an object without a file descriptor and for an
-// encrypted connection.
+// Sends a stored object piece by piece. Used if the object has no file descriptor or the connection
+// is encrypted, because sendfile(2) is then impossible.
 asio::awaitable<std::uint64_t> send_pieces(Connection& connection, const StoredBytes& body,
                                            Pace pace) {
   constexpr std::uint64_t kPiece = 64 * 1024;

@@ -40,7 +40,8 @@ class Session {
         co_return false;
       }
     }
-    // If a body is left unread, it is unknown where the next request would start.
+    // If part of the body is unread, the start of the next request is unknown, so the connection
+    // must close.
     if (!parser.is_done() && !exchange.is_body_read) exchange.keep_alive = false;
     if (exchange.response.upgrade && may_upgrade(parser, exchange)) {
       co_await upgrade(parser.release(), exchange);
@@ -50,8 +51,8 @@ class Session {
     co_return is_sent&& exchange.keep_alive;
   }
 
-  // Whether the connection may be upgraded; if not, sets an error response. An upgraded connection
-  // serves one client for a long time. It therefore counts towards that client's limit, even if a
+  // Whether the connection may be upgraded. If not, sets an error response. An upgraded connection
+  // serves one client for a long time, so it counts towards the limit of that client, even if a
   // proxy has opened it.
   bool may_upgrade(const RequestParser& parser, Exchange& exchange) {
     if (!parser.is_done()) {

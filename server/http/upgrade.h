@@ -14,7 +14,7 @@ class HttpServer;
 
 struct UpgradedConnection {
   std::shared_ptr<Connection> connection;
-  beast::http::request<beast::http::string_body> request;  // the request that asked for the upgrade
+  beast::http::request<beast::http::string_body> request;  // the request for the upgrade
 };
 
 // A handler returns an object of this class as Response::upgrade.
@@ -26,8 +26,9 @@ class Upgrade {
   // once no operation on the connection is pending.
   virtual asio::awaitable<void> serve(UpgradedConnection upgraded, HttpServer& server) = 0;
 
-  // Whether the client may still see what serve() sends. Otherwise the connection is asked to end.
-  // Called about twice a second on a worker thread, while serve() runs on another; may block.
+  // Whether the client may still see the data that serve() sends. If not, the server asks the
+  // connection to end. Called about twice a second on a worker thread while serve() runs on another
+  // thread. May block.
   virtual bool may_continue() { return true; }
 };
 

@@ -4,8 +4,8 @@
 namespace vitrine::server {
 namespace {
 
-// Returns an admission limit that lets one address use at most a quarter, so that no address can
-// lock out the others.
+// Returns an admission limit that lets one address use at most a quarter of the capacity, so that
+// no address can lock out the others.
 std::shared_ptr<AdmissionLimit> shared_limit(std::size_t capacity) {
   return std::make_shared<AdmissionLimit>(capacity, (capacity + 3) / 4);
 }
@@ -33,7 +33,8 @@ asio::any_io_executor Workers::executor(Executor where) {
 
 tl::expected<AdmissionLimit::Pass, AdmissionLimit::Refusal> Workers::admit(
     Executor where, const std::string& address) {
-  if (where == Executor::kWorker) return nullptr;  // the limit on connections suffices
+  // the limit on connections also bounds these tasks
+  if (where == Executor::kWorker) return nullptr;
   if (where == Executor::kCompute) return computation_limit_->admit(address);
   return (where == Executor::kDevice ? device_limit_ : disk_limit_)->admit(address);
 }

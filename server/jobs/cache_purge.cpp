@@ -12,17 +12,19 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kPurgeDeadline{10};  // time limit of each request
-// All daemons have noticed a change of the catalogue after this time. A cache that forgets a chunk
-// earlier could fetch it again.
+// After this time, all daemons have noticed a change of the catalogue. Purges wait for it, because
+// a cache that forgets a chunk earlier could fetch the chunk again from a daemon that still serves
+// it.
 constexpr std::chrono::milliseconds kAllHaveNoticed{250};
 
-// Whether a cache has forgotten a chunk. Caches respond with 404 or 412 if they do not have it.
+// Whether the status means that the cache no longer has the chunk. Caches respond with 404 or 412
+// if they did not have it.
 bool is_forgotten(long status) {
   return status / 100 == 2 || status == 404 || status == 412;
 }
 
-// Whether no published model has the chunk. True if the catalogue cannot be read, because a cache
-// that forgets a public chunk only has to fetch it again.
+// Whether no published model has the chunk. Returns true if the catalogue cannot be read: if a
+// cache then forgets a public chunk, it only has to fetch it again.
 bool is_hidden(const Sha256& chunk, Catalogue& catalogue) {
   const auto place = catalogue.find_chunk(chunk);
   return !place || !*place;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks the shared caches in front of the daemon to forget chunks that are no longer public. Sends
-// the method PURGE, which has no standard; Varnish, Squid and the shipped configuration of nginx
-// know it.
+// requests with the method PURGE. This method is not standardised, but Varnish, Squid and the nginx
+// configuration shipped with Vitrine support it.
 #pragma once
 
 #include <atomic>
@@ -22,12 +22,12 @@ class CachePurge {
       : caches_(std::move(caches)), catalogue_(catalogue), events_(events), executor_(events) {}
   ~CachePurge() { stop(); }
 
-  // Sends PURGE {cache}/api/v1/chunks/{sha256} to each cache, on another thread, for each chunk
-  // that no published model has. If a cache refuses one of these requests, logs a warning and sends
-  // the rest to the other caches only.
+  // Sends PURGE {cache}/api/v1/chunks/{sha256} to each cache, on another thread, for each of the
+  // chunks that no published model has. If a cache refuses a request, logs a warning and sends the
+  // remaining requests to the other caches only.
   void forget(std::vector<Sha256> chunks);
 
-  // Drops the chunks that wait. Call it before the catalogue is destroyed.
+  // Drops the chunks that are waiting. Call this before the catalogue is destroyed.
   void stop();
 
  private:

@@ -22,8 +22,8 @@ Expected<std::size_t> Collector::forget_jobs(std::int64_t now) {
   return needs_.jobs.forget(before(kKeyAge), before(kJobAge));
 }
 
-// Holds the store's lock, because another process may have stored an object to which it has not
-// added a reference yet. If the lock is lost, this collection removes no more objects.
+// Collects under the store's lock, because another process may have stored an object but not yet
+// added a reference to it. If the lock is lost, this collection removes no more objects.
 Expected<Collector::Collected> Collector::collect(std::int64_t now) {
   const auto in_use = uploads_in_use();
   if (!in_use) return tl::unexpected(in_use.error());
@@ -47,7 +47,8 @@ void Collector::collect_and_tell() {
   Expected<Collected> collected;
   try {
     collected = collect();
-  } catch (const std::exception& fault) {  // out of memory: tries again after the next pause
+    // For example std::bad_alloc. Tries again after the next pause.
+  } catch (const std::exception& fault) {
     collected = fail(ErrorCode::kIo, std::string("cannot collect: ") + fault.what());
   }
   if (!collected) return needs_.events.event(Severity::kError, collected.error().message);

@@ -41,7 +41,7 @@ class Collector {
     std::size_t objects = 0, uploads = 0, jobs = 0;
   };
   // Collects once and returns the numbers of removed objects, uploads and jobs. `now` is in
-  // milliseconds since 1970. kIo if the catalogue or the disk fails.
+  // milliseconds since 1970. Fails with kIo if the catalogue or the disk fails.
   Expected<Collected> collect(std::int64_t now = now_in_milliseconds());
 
   // Starts a thread that collects at once and then every `pause`, until stop().

@@ -29,7 +29,7 @@ class FencedBoard final : public acquisition::Board {
   Expected<void> rest() override {
     return may_().and_then([this] { return board_->rest(); });
   }
-  // An emergency stop is never refused.
+  // An emergency stop is carried out even if this daemon may not command the scanner.
   void emergency_stop() noexcept override { board_->emergency_stop(); }
 
  private:

@@ -8,8 +8,8 @@
 
 namespace vitrine::server {
 
-// Returns the free bytes for this process on the disk of the data folder, or on that of the uploads
-// if it has fewer. A disk whose free space is unknown counts as having unlimited free space.
+// Returns the number of free bytes on the disk of the data folder or on the disk of the uploads,
+// whichever is less. A disk whose free space is unknown counts as having unlimited free space.
 std::uint64_t free_space(const Settings& settings);
 
 }  // namespace vitrine::server

@@ -11,7 +11,8 @@
 namespace vitrine::server {
 namespace {
 
-// Returns the name of the executor that runs the job. Jobs that need no device share one.
+// Returns the name of the executor that runs the job. All jobs that need no scanner share one
+// executor.
 std::string executor_name(const JobRecord& job) {
   return needs_scanner(job.kind) ? job.scanner : "";
 }
@@ -31,7 +32,7 @@ std::vector<JobKind> kinds_of(const TakenJobs& taken) {
   return kinds;
 }
 
-// Whether the job was running each of the last kMaxAttempts times that a daemon died. The job may
+// Whether the last kMaxAttempts daemons that claimed the job died while it was running. The job may
 // then be the cause.
 bool is_hopeless(const JobRecord& job) {
   return job.state == JobState::kRunning && job.attempts >= kMaxAttempts;
@@ -84,7 +85,7 @@ void JobQueue::stop() {
   }
   for (const auto& [name, executor] : executors)
     executor->finish();
-  lease_renewal_.reset();  // last, so that jobs that stop slowly keep their leases
+  lease_renewal_.reset();  // reset last, so that jobs that stop slowly keep their leases
 }
 
 bool JobQueue::is_stopping() const {
@@ -129,8 +130,8 @@ void JobQueue::post(const SharedRun& run) {
   executor_of(name).post([this] { work(next_without_scanner()); });
 }
 
-// Returns the next job without a scanner. There is always one, because post() posts this call once
-// for each waiting job.
+// Returns the next job that needs no scanner. There always is one, because post() posts one call of
+// this function for each waiting job.
 JobQueue::SharedRun JobQueue::next_without_scanner() {
   const std::scoped_lock lock(mutex_);
   return *without_scanner_.take([](const SharedRun&) { return true; });
@@ -378,7 +379,7 @@ void JobQueue::work(const SharedRun& run) {
   Expected<JobEnd> result = JobEnd::kDone;
   try {
     result = task_(*run);
-  } catch (const std::exception& fault) {  // out of memory: only this job fails
+  } catch (const std::exception& fault) {  // for example std::bad_alloc; only this job fails
     result = fail(ErrorCode::kIo, fault.what());
   }
   end(run, result);
@@ -390,8 +391,8 @@ JobState JobQueue::state_after(JobRun& run, const Expected<JobEnd>& result) {
   const StopRequest request = run.stop_request();
   if (result && *result == JobEnd::kDone) return JobState::kDone;
   if (request == StopRequest::kCancel) return JobState::kCancelled;
-  // Only kState is expected after a request to pause. Any other error makes the job fail, so that
-  // the error is not lost; a failed scan can be resumed, too.
+  // After a request to pause, only the error kState is expected. Any other error makes the job
+  // fail, so that the error is reported; a failed scan can be resumed, too.
   const bool is_put_aside = result || result.error().code == ErrorCode::kState;
   if (request == StopRequest::kPause && is_put_aside) return JobState::kPaused;
   if (request == StopRequest::kStop) return JobState::kQueued;  // runs again after a restart
@@ -454,8 +455,8 @@ Expected<void> JobQueue::take_up_paused() {
 }
 
 // Looks for jobs to run. If the catalogue was unreachable, other daemons may have been unable to
-// renew their leases, too. They get the time of one lease to do so before this daemon claims jobs
-// whose lease has expired.
+// renew their leases, too. Therefore waits for the duration of one lease before it claims jobs
+// whose leases have expired.
 void JobQueue::look_for_jobs(std::uint32_t limit) {
   const auto believes_from = [this] {
     const std::scoped_lock lock(mutex_);
@@ -481,7 +482,7 @@ void JobQueue::look_at_others() {
     for (const auto& [id, other] : others_) {
       if (SharedRun run = other.lock()) others.push_back(std::move(run));
     }
-    // Includes this daemon's paused jobs, because another daemon may cancel or claim them.
+    // Also updates this daemon's paused jobs, because another daemon may cancel or claim them.
     for (const auto& [id, run] : runs_) {
       if (is_aside(*run)) others.push_back(run);
     }

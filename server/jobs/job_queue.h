@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The queue of jobs and their states. Each scanner has a serial executor and at most one unfinished
-// job. Jobs without a scanner share another executor, in turns of their owners. The catalogue
+// job. All other jobs share one more executor, on which their owners take turns. The catalogue
 // stores all jobs, so that a restarted daemon continues its jobs and several daemons share the
-// work. A daemon claims a job and renews its lease while it works. If another daemon claims the
-// job, the first one abandons it.
+// work. A daemon claims a job and renews the lease on it while it works. If another daemon claims
+// the job, the first daemon abandons it.
 #pragma once
 
 #include <condition_variable>
@@ -55,8 +55,9 @@ class JobRun {
   // the job.
   std::uint64_t stops_known() const;
 
-  // Reports progress. `stage` is one word. `progress` is that of the whole job, 0..1, and never
-  // decreases. `eta` is the remaining time in seconds, if known. `note`: JobStatus::note.
+  // Reports progress. `stage` is one word. `progress` is the completed share of the whole job, from
+  // 0 to 1, and never decreases. `eta` is the remaining time in seconds, if known. `note` becomes
+  // JobStatus::note.
   void report(std::string_view stage, double progress, std::optional<double> eta = {},
               std::string_view note = {});
   void made(const ModelId& model);
@@ -123,8 +124,8 @@ struct TakenJobs {
   }
 };
 
-// Thread-safe. Errors: kState if the job's state does not allow the call, kIo if the catalogue
-// fails.
+// Thread-safe. All functions fail with kState if the job's state does not allow the call, and with
+// kIo if the catalogue fails.
 class JobQueue {
  public:
   JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task, TakenJobs taken = {});
@@ -139,8 +140,8 @@ class JobQueue {
   bool may_notify(const JobId& id);
 
   // Continues the unfinished jobs of an earlier run of this daemon. Paused jobs stay paused. A job
-  // ends if it was running each of the last three times that a daemon died: as done if its model
-  // was stored, otherwise as failed. After this call, beat() runs twice per second until stop().
+  // ends if each of the last three daemons that ran it died: as done if its model was stored,
+  // otherwise as failed. After this call, beat() runs twice per second until stop().
   Expected<void> start();
 
   // Renews the leases of the jobs that run in this daemon, receives cancellations, and looks for
@@ -152,12 +153,12 @@ class JobQueue {
   bool is_stopping() const;
 
   // Returns the job that a request with this idempotency key started, or nullopt if there is none.
-  // kBadInput if the key was used for a different request.
+  // Fails with kBadInput if the key was used for a different request.
   Expected<std::optional<JobRecord>> begun_by(const std::optional<IdempotencyKey>& key) const;
 
   // Adds a job and returns it. If the key was used for the same request before, returns the job of
-  // that request. kBadInput if the key was used for a different request, kState if the scanner is
-  // busy. `stops`: JobRun::stops_known().
+  // that request. Fails with kBadInput if the key was used for a different request, and with kState
+  // if the scanner is busy. `stops` becomes JobRun::stops_known().
   Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                           const std::optional<IdempotencyKey>& key, std::uint64_t stops = 0);
 
@@ -185,9 +186,9 @@ class JobQueue {
   // Returns the oldest unfinished job of any daemon for which `is` returns true, or nullopt.
   Expected<std::optional<JobRecord>> job_where(const std::function<bool(const JobRecord&)>& is);
 
-  // Posts a short command to the scanner's executor, which also runs the scanner's jobs. kState if
-  // the scanner is busy; the command is then not run. A paused job makes the scanner busy unless
-  // `beside_paused` is true.
+  // Posts a short command to the scanner's executor, which also runs the scanner's jobs. Fails with
+  // kState if the scanner is busy; the command is then not run. A paused job makes the scanner busy
+  // unless `beside_paused` is true.
   Expected<void> post_command(const std::string& scanner, std::function<void()> command,
                               bool beside_paused = false);
 
@@ -197,7 +198,7 @@ class JobQueue {
  private:
   using SharedRun = std::shared_ptr<JobRun>;
 
-  // The caller of the functions from here to the next empty line must hold mutex_.
+  // The functions from here to the next blank line require that the caller holds mutex_.
   Expected<void> check_free(const std::string& scanner) const;
   Expected<SharedRun> unfinished(const JobId& id) const;
   SharedRun run_of(const std::string& scanner) const;
@@ -236,10 +237,11 @@ class JobQueue {
   mutable std::mutex mutex_;                       // guards the members below
   std::map<JobId, SharedRun> runs_;                // unfinished jobs
   std::map<JobId, std::weak_ptr<JobRun>> others_;  // jobs of other daemons that watch() returned
-  FairQueue<SharedRun> without_scanner_;           // jobs that wait for their shared executor
+  // jobs that wait for the executor that they share
+  FairQueue<SharedRun> without_scanner_;
   std::vector<SharedRun> again_;  // jobs to claim when the catalogue is reachable again
-  // Until this time, expired leases of other daemons count as valid. Those daemons could not renew
-  // them while the catalogue was unreachable.
+  // Until this time, expired leases of other daemons still count as valid, because these daemons
+  // could not renew them while the catalogue was unreachable.
   std::chrono::steady_clock::time_point believes_from_{};
   std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;
   bool is_stopping_ = false;

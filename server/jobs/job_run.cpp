@@ -30,8 +30,8 @@ void JobRun::when_asked(std::function<void()> react) {
 void JobRun::request_stop(StopRequest request, std::string_view reason) {
   const std::scoped_lock lock(mutex_);
   if (waits_ && request == StopRequest::kStop) request = StopRequest::kPause;
-  // A request to cancel stays in force, and a paused job stays paused when the daemon ends. Only
-  // the loss of the job to another daemon overrides these rules.
+  // A job that is to be cancelled cannot be paused or stopped, and a paused job stays paused when
+  // the daemon ends. A job that another daemon has claimed is abandoned in any case.
   if (stop_request_ == StopRequest::kLost) return;
   const bool holds = stop_request_ == StopRequest::kCancel ||
                      (stop_request_ == StopRequest::kPause && request == StopRequest::kStop);

@@ -23,8 +23,8 @@ struct ModelOrder {
   bool z_is_up = false;
 };
 
-// Parses a request. Returns either the order or all faults of the request. An unknown field is a
-// fault.
+// Parses a request. Returns either the order or all faults of the request. An unknown field is also
+// a fault.
 tl::expected<ModelOrder, FieldFaults> parse_model_order(const nlohmann::json& body);
 
 // Writes an order as JSON for the job's record. parse_model_order() reads that text.

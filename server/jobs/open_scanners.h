@@ -12,12 +12,13 @@
 
 namespace vitrine::server {
 
-// Succeeds if this daemon may command the scanner now.
+// Checks whether this daemon may command the scanner at the moment; returns an error if not.
 using MayCommand = std::function<Expected<void>(const std::string& scanner)>;
 
 // Creates a backend for each rig.json file, without opening its devices. Commands to a scanner fail
-// while `may` fails for it. kBadInput if two scanners have the same name, or if a name contains
-// characters other than a-z, 0-9 and -. Also fails with the errors of read_scanner_config().
+// as long as `may` returns an error for it. Fails with kBadInput if two scanners have the same
+// name, or if a name contains characters other than a-z, 0-9 and -. Also fails with the errors of
+// read_scanner_config().
 Expected<std::vector<std::unique_ptr<ScannerBackend>>> open_scanners(
     std::span<const std::filesystem::path> configs, const MayCommand& may);
 

@@ -18,7 +18,8 @@
 namespace vitrine::server {
 
 struct FieldFault {
-  std::string field, detail;  // the field, such as "metadata.title", and the expected value
+  // name of the field, such as "metadata.title", and a description of the expected value
+  std::string field, detail;
 };
 using FieldFaults = std::vector<FieldFault>;
 
@@ -32,7 +33,7 @@ class Fields {
 
   void only(std::span<const std::string_view> known);  // reports each member not in `known`
   void text(const char* name, std::string& value);     // null makes the text empty (RFC 7396)
-  // Reads a text that may have several paragraphs. Carriage returns are left out.
+  // Reads a text that may have several paragraphs. Removes carriage returns.
   void paragraphs(const char* name, std::string& value);
   void whole(const char* name, int low, int high, int& value);
   void flag(const char* name, bool& value);

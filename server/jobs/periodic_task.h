@@ -14,9 +14,9 @@
 
 namespace vitrine::server {
 
-// Runs the task again and again until the object is destroyed, with `pause` before each run. An
-// exception that the task throws (out of memory, for example) is logged, and the task runs again
-// after the next pause. The log must outlive the object.
+// Runs the task repeatedly until the object is destroyed, with `pause` before each run. If the task
+// throws (for example, out of memory), logs the exception and runs the task again after the next
+// pause. The log must outlive the object.
 class PeriodicTask {
  public:
   PeriodicTask(std::chrono::milliseconds pause, const Log& events, std::function<void()> task)

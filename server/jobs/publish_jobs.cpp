@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr double kChildDone = 0.98;  // progress of the job when the child has finished
+constexpr double kChildDone = 0.98;  // the job's progress once the child has finished
 
 Expected<ModelOrder> order_of(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
@@ -49,7 +49,7 @@ Expected<Bytes> read_all(const FileDescriptor& file) {
 
 std::string upload_name(std::string_view metadata) {
   constexpr std::string_view kKey = "filename ";
-  constexpr std::size_t kMost = 1'024;  // bytes in Base64
+  constexpr std::size_t kMost = 1'024;  // longest accepted Base64 text, in bytes
   while (!metadata.empty()) {
     std::string_view pair = metadata.substr(0, metadata.find(','));
     metadata.remove_prefix(std::min(pair.size() + 1, metadata.size()));
@@ -78,8 +78,8 @@ std::optional<UploadId> PublishJobs::upload_of(const JobRecord& job) {
   return order ? std::optional(order->upload) : std::nullopt;
 }
 
-// Adds the model to the catalogue before it removes the upload. If the daemon dies in between, the
-// job runs again and does not publish a second model.
+// Adds the model to the catalogue first and removes the upload afterwards. If the daemon dies in
+// between, the job runs again; it does not publish a second model.
 Expected<JobEnd> PublishJobs::work(JobRun& run) {
   const auto order = order_of(run.job());
   if (!order) return tl::unexpected(order.error());

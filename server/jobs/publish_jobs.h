@@ -30,10 +30,10 @@ class PublishJobs {
  public:
   explicit PublishJobs(const PublishDependencies& needs) : needs_(needs) {}
 
-  // Creates the job for an order of an upload by `owner`. The caller adds it to the queue.
+  // Creates a job for an order about an upload of `owner`. The caller adds the job to the queue.
   static JobRecord job_for(const ModelOrder& order, const TokenId& owner);
 
-  // Runs a job. Removes the upload if the job succeeds. Otherwise the upload stays for another try.
+  // Runs a job. If the job succeeds, removes the upload. Otherwise keeps it for another attempt.
   Expected<JobEnd> work(JobRun& run);
 
   // Returns the upload that a job uses, or nullopt if it uses none.

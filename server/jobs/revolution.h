@@ -12,18 +12,18 @@
 namespace vitrine::server {
 
 // Whether the folder contains the steps of `revolution`, a ScanEntry::revolution. An empty value
-// stands for a folder that an earlier version of Vitrine made. kIo if the folder exists and cannot
-// be read.
+// stands for a folder that an earlier version of Vitrine made. Fails with kIo if the folder exists
+// and cannot be read.
 Expected<bool> holds_revolution(const std::filesystem::path& folder, const std::string& revolution);
 
 // Empties the folder and marks it with `revolution`.
 Expected<void> begin_revolution(const std::filesystem::path& folder, const std::string& revolution);
 
-// Deletes the folder of a scan. After a crash, either the whole folder is there or none of its
-// files is. Fails with kIo.
+// Deletes the folder of a scan. If the machine crashes during the call, either the whole folder is
+// left or none of it. Fails with kIo.
 Expected<void> remove_revolution(const std::filesystem::path& folder);
 
-// Deletes what an interrupted remove_revolution() has left in `scans`, the folder of all scans.
+// Deletes the remains of interrupted remove_revolution() calls in `scans`, the folder of all scans.
 void sweep_removed_revolutions(const std::filesystem::path& scans);
 
 }  // namespace vitrine::server

@@ -57,7 +57,7 @@ void read_scan(Fields& fields, const Json& body, ScanOrder& order) {
   fields.flag("keep_frames", order.request.keep_frames);
 }
 
-// Names of the allowed fields: kOfScan only for a new scan, kOfModel for a new scan and for a
+// Names of the allowed fields. kOfScan applies to a new scan only, kOfModel to a new scan and to a
 // rebuild.
 constexpr std::string_view kOfScan[] = {"scanner", "steps", "exposure", "keep_frames"};
 constexpr std::string_view kOfModel[] = {"calibration",   "stripe",       "sampling", "length",

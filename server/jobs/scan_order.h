@@ -17,7 +17,7 @@ namespace vitrine::server {
 struct ScanOrder {
   std::string scanner;  // name of the scanner
   acquisition::ScanRequest request;
-  // Number of the calibration. 0: the newest one, or, for a rebuild, the one that the scan used.
+  // Number of the calibration. 0 means the newest one, or for a rebuild the one that the scan used.
   int calibration = 0;
 
   int bits = 0;  // see BuildOptions::bits
@@ -25,8 +25,8 @@ struct ScanOrder {
 
   ModelMetadata metadata;
   bool is_public = false;  // whether the model is published at once; else it is a draft
-  // Only a rebuild: whether the model is published if, by then, visitors see all of the scan's
-  // model.
+  // Only for a rebuild: whether to publish the new model if visitors then see all of the scan's
+  // present model.
   bool is_public_as_before = false;
   std::string webhook;  // URL to call when the job ends; empty: none
 };
@@ -43,8 +43,8 @@ struct CalibrationOrder {
 tl::expected<ScanOrder, FieldFaults> parse_scan_order(const nlohmann::json& body);
 
 // Parses a request to rebuild the mesh of a stored scan. Options not given keep the values of
-// `scan`. Options of the scanner cannot be changed. If the request says whether to publish, the
-// order is not public "as before".
+// `scan`. Options of the scanner cannot be changed. If the request says whether to publish,
+// `is_public_as_before` becomes false.
 tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const nlohmann::json& body,
                                                            const ScanOrder& scan);
 

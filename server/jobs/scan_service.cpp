@@ -72,7 +72,7 @@ Expected<void> check_calibrated(ScannerBackend& scanner) {
                                              scanner.name()));
 }
 
-// Returns the order of a calibration job. Jobs of earlier versions have no parameters.
+// Returns the order of a calibration job. A job of an earlier version gets the default values.
 CalibrationOrder calibration_order(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
   return parse_calibration_order(json.is_object() ? json : nlohmann::json::object())
@@ -157,8 +157,8 @@ Expected<void> ScanService::start() {
   return queue_.start();
 }
 
-// After a crash, reads the scans' actual numbers of steps from their folders, because the catalogue
-// is updated only every few steps.
+// Reads the number of steps of each scan from its folder, because the catalogue is updated only
+// every few steps and may be outdated after a crash.
 Expected<void> ScanService::recall() {
   const auto left = options_.jobs.unfinished_jobs();
   if (!left) return tl::unexpected(left.error());
@@ -168,7 +168,7 @@ Expected<void> ScanService::recall() {
   return {};
 }
 
-// Ignores a scan that cannot be read; the scan's job reports the error when it runs.
+// Ignores a scan that cannot be read: the scan's job will report the error when it runs.
 void ScanService::recall(JobRecord job) {
   ScannerStation* station = scanner(job.scanner);
   auto entry = options_.jobs.find_scan(*job.scan);
@@ -381,7 +381,8 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   auto view = station->backend().view(folder_of(scan.id));
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
-  // Checks again under the lock, because remove_data() deletes the revolution before it locks.
+  // Checks the revolution again under the lock, because remove_data() deletes it before it acquires
+  // the lock.
   if (auto here = check_revolution(scan); !here) return tl::unexpected(here.error());
   if (views_.size() >= kViews) views_.erase(views_.begin());
   views_[scan.id] = *view;
@@ -402,7 +403,8 @@ Expected<void> ScanService::check_revolution(const ScanEntry& scan) const {
 }
 
 // Ensures that this daemon's folder holds the scan's revolution. If another daemon measured the
-// steps, they are not in the folder and the table has moved since, so the scan restarts.
+// steps, they are not in this folder. In this case, the scan restarts, because the table has moved
+// since.
 Expected<void> ScanService::settle_revolution(JobRun& run, ScanEntry& scan) {
   const std::filesystem::path folder = folder_of(scan.id);
   const auto is_here = holds_revolution(folder, scan.revolution);
@@ -560,8 +562,8 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   return shown ? Expected<JobEnd>(JobEnd::kDone) : tl::unexpected(shown.error());
 }
 
-// Whether to publish the model that the job has made. The scan's model may have been withdrawn or
-// limited since the order.
+// Whether to publish the model that the job has made. The scan's previous model may have been
+// withdrawn or limited to some levels since the order.
 Expected<bool> ScanService::may_be_public(const JobRun& run, const ScanOrder& order) {
   const auto entry = options_.jobs.find_scan(run.job().scan.value_or(ScanId()));
   if (!entry) return tl::unexpected(entry.error());

@@ -42,14 +42,15 @@ struct ScanServiceOptions {
   Quota* quota = nullptr;                            // limits the bytes of models; null: no limit
   TakenJobs taken = {};                              // the jobs that this daemon runs
   const ScannerClaims* claims = nullptr;             // null: this daemon drives every scanner
-  // Called by a job that has added a model to the catalogue, before the job ends.
+  // Called by a job after it has added a model to the catalogue and before the job ends.
   std::function<void(const ModelId&)> when_added = {};
-  // Returns the time that limits how long a laser stays on that an operator has lit.
+  // The clock for the time limit of a laser that an operator has switched on.
   std::function<ScannerStation::Clock::time_point()> now = ScannerStation::Clock::now;
 };
 
-// Thread-safe. Errors: kState if the call is not possible now, kBadInput if an idempotency key was
-// used for another request, kIo if the catalogue, the disk or a device fails.
+// Thread-safe. All functions fail with kState if the call is not possible now, with kBadInput if an
+// idempotency key was used for another request, and with kIo if the catalogue, the disk or a device
+// fails.
 class ScanService {
  public:
   ScanService(const ScanServiceOptions& options,
@@ -58,15 +59,16 @@ class ScanService {
 
   // Continues the jobs that an earlier run of the daemon left, and looks for the scanners.
   Expected<void> start();
-  // Stops running jobs, which continue at the next start. Laser and motor are off on return.
+  // Stops running jobs, which continue at the next start. Laser and motor are off when the function
+  // returns.
   void stop();
 
   JobQueue& jobs() { return queue_; }
 
   std::vector<ScannerStatus> scanners();
-  ScannerStation* scanner(std::string_view name);  // null if there is no scanner of that name
+  ScannerStation* scanner(std::string_view name);  // null if there is no such scanner
   std::vector<std::string> names() const;          // scanners configured in this daemon
-  // Return the results of the functions of the same names in ScannerClaims.
+  // Both functions return the result of the function of the same name in ScannerClaims.
   std::optional<std::string> address_of(const std::string& name) const;
   std::map<std::string, std::vector<std::string>> others() const;
   // Returns a new picture, or, while a scan runs, the latest picture of the scan.
@@ -82,8 +84,8 @@ class ScanService {
   // Does not change the scan's state.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<IdempotencyKey>& key);
-  // Deletes what was measured: profiles, points and kept pictures. The scan's record and its models
-  // stay. No job may use the scan.
+  // Deletes the measured data of a scan: profiles, points and kept pictures. Keeps the scan's
+  // record and its models. No job may use the scan.
   Expected<void> remove_data(const ScanEntry& scan);
   Expected<void> pause(const ScanEntry& scan);
   // Continues a paused scan. Continues a failed scan with a new job.
@@ -95,7 +97,8 @@ class ScanService {
   Expected<std::vector<ScanInfo>> list(const PageOf<ScanId>& page);
   static Expected<ScanOrder> order_of(const ScanEntry& scan);
 
-  // Returns the view of a scan. Null if the scan has no data yet, kState if its folder is missing.
+  // Returns the view of a scan, or null if the scan has no data yet. Fails with kState if its
+  // folder is missing.
   Expected<std::shared_ptr<const ScanView>> view(const ScanEntry& scan);
 
  private:

@@ -21,7 +21,7 @@ namespace vitrine::server {
 struct ScannerIdentity {
   acquisition::CameraIdentity camera;
   acquisition::BoardIdentity board;
-  // Number of the newest calibration that fits the camera; nullopt: none.
+  // Number of the newest calibration that fits the camera; nullopt if no calibration fits it.
   std::optional<int> calibration;
 };
 
@@ -99,10 +99,10 @@ class ScannerBackend {
   virtual Expected<ScannerIdentity> identify() = 0;
   virtual Expected<void> jog(double degrees) = 0;  // turns the table by an angle
   virtual Expected<void> laser(bool on) = 0;
-  // Restarts the watchdog's time, so that the laser stays on. Fails, and switches nothing on, if
-  // the board is not open.
+  // Restarts the time of the board's watchdog, so that the laser stays on. Fails without switching
+  // anything on if the board is not open.
   virtual Expected<void> keep_laser() = 0;
-  // Takes a picture. Uses only the camera, so it also works after an emergency stop.
+  // Takes a picture. Uses only the camera, so this also works after an emergency stop.
   virtual Expected<acquisition::Frame> picture() = 0;
 
   // Measures the steps that `folder` does not contain yet, and meshes all steps. Returns nullopt if
@@ -124,8 +124,8 @@ class ScannerBackend {
   // Turns laser and motor off at once. The board stays unused until allow() is called.
   virtual void emergency_stop() noexcept = 0;
   virtual std::uint64_t stops() const noexcept = 0;  // number of emergency stops so far
-  // Allows commands again, unless there were more than `stops` emergency stops. So a stop that the
-  // client does not know of stays in force.
+  // Allows commands again, unless more than `stops` emergency stops have occurred. A stop that the
+  // client does not know about therefore stays in force.
   virtual void allow(std::uint64_t stops) noexcept = 0;
 
   // Rebuilds the mesh of a stored scan that no job uses.

@@ -11,7 +11,7 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kScannerBeat{2};
-// A lease ends this much earlier for this daemon than in the catalogue.
+// By this daemon's clock, a lease ends this much earlier than in the catalogue.
 constexpr std::chrono::seconds kMargin{1};
 
 }  // namespace
@@ -58,8 +58,9 @@ void ScannerClaims::beat() {
   look_at_others();
 }
 
-// Whether this daemon may try to acquire the scanner. If the catalogue was unreachable, the daemon
-// that drives the scanner gets the time of one lease to renew its lease.
+// Whether this daemon may try to acquire the scanner. After the catalogue was unreachable, returns
+// false for the duration of one lease, so that the daemon that drives the scanner can renew its
+// lease first.
 bool ScannerClaims::may_take(const std::string& scanner) const {
   const std::scoped_lock lock(mutex_);
   const auto driver = std::ranges::find(drivers_, scanner, &ScannerDriver::scanner);
@@ -67,8 +68,8 @@ bool ScannerClaims::may_take(const std::string& scanner) const {
   return !is_anothers || now() >= believes_from_;
 }
 
-// Acquires the scanner. The lease counts from before the request to the catalogue, so that it ends
-// early rather than late.
+// Acquires the scanner. Computes the end of the lease from a time before the request to the
+// catalogue, so that this daemon never overestimates it.
 void ScannerClaims::take(const std::string& scanner) {
   const Clock until = now() + lease_.time - kMargin;
   const auto epoch = catalogue_.take_scanner(scanner, lease_, address_);

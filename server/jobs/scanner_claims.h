@@ -21,7 +21,8 @@ namespace vitrine::server {
 // Thread-safe.
 class ScannerClaims {
  public:
-  // `address` has the form of ScannerDriver::address. The catalogue must outlive this object.
+  // `address` must be in the form of ScannerDriver::address. The catalogue must outlive this
+  // object.
   ScannerClaims(JobCatalogue& catalogue, Log events, Lease lease, std::string address);
   // Acquires the scanners in `names` that no other daemon drives. `names` are all scanners
   // configured in this daemon. Then runs beat() every two seconds.
@@ -33,18 +34,20 @@ class ScannerClaims {
 
   // Succeeds if this daemon may command the scanner now. Otherwise returns kIo with the reason.
   Expected<void> check(const std::string& scanner) const;
-  // Whether this daemon runs the scanner's jobs. True if it drives the scanner. Also true for a
-  // scanner that is not configured here, unless another daemon drove it last.
+  // Whether this daemon runs the scanner's jobs. Returns true if the daemon drives the scanner.
+  // Also returns true for a scanner that is not configured here, unless another daemon drove it
+  // last.
   bool has_jobs_of(const std::string& scanner) const;
-  // Returns the address of another daemon that drives the scanner, or an empty text if that
-  // daemon's lease has expired. Returns nullopt if this daemon or none drives the scanner, or if
-  // the other daemon has no address.
+  // Returns the address of the other daemon that drives the scanner, or an empty text if that
+  // daemon's lease has expired. Returns nullopt if this daemon or no daemon drives the scanner, or
+  // if the other daemon has no address.
   std::optional<std::string> address_of(const std::string& scanner) const;
   // Returns the addresses of the other running daemons, each with the scanners that it drives.
   std::map<std::string, std::vector<std::string>> others() const;
 
  private:
-  using Clock = std::chrono::nanoseconds;  // time since the machine started, suspension included
+  // time since the machine was started, including time in suspension
+  using Clock = std::chrono::nanoseconds;
   struct HeldScanner {
     std::uint64_t epoch = 0;
     Clock until{};  // end of the lease by this machine's clock, minus a margin
@@ -65,8 +68,8 @@ class ScannerClaims {
   std::vector<std::string> names_;
   std::map<std::string, HeldScanner> held_;
   std::vector<ScannerDriver> drivers_;  // drivers as last read from the catalogue
-  // Until this time, expired leases of other daemons count as valid. Those daemons could not renew
-  // them while the catalogue was unreachable.
+  // Until this time, expired leases of other daemons still count as valid, because these daemons
+  // could not renew them while the catalogue was unreachable.
   Clock believes_from_{};
 
   std::optional<PeriodicTask> lease_renewal_;

@@ -52,15 +52,15 @@ void ScannerStation::look() {
 }
 
 void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
-  // KState stands for an emergency stop; the scanner is still reachable then.
+  // KState means that an emergency stop is in force. The scanner is then still reachable.
   if (!seen && seen.error().code == ErrorCode::kState) return;
   const std::scoped_lock lock(mutex_);
   if (seen) identity_ = *seen;
   problem_ = seen ? "" : seen.error().message;
 }
 
-// Looks for the scanner again, because it may have been connected. Only one search runs at a time,
-// and none while the scanner has an unfinished job.
+// Searches for the scanner again, because it may have been connected in the meantime. Only one
+// search runs at a time. Does not search while the scanner has an unfinished job.
 void ScannerStation::look_again() {
   if (is_looking_.exchange(true)) return;
   const auto posted = jobs_.post_command(name(), [this] {
@@ -73,7 +73,8 @@ void ScannerStation::look_again() {
 ScannerStatus ScannerStation::status() {
   const auto job = jobs_.job_of(name());
   if (!job && looked_.valid())
-    // Does not wait if there is a job, because the job may delay the search.
+    // If a job runs, the search for the scanner may wait for the end of the job. Therefore waits
+    // for the search only if there is no job.
     looked_.wait_for(kLookTimeout);
   ScannerStatus status{.name = name(), .power = backend_.power()};
   {
@@ -88,7 +89,7 @@ ScannerStatus ScannerStation::status() {
     status.state = ScannerState::kUnreachable;
     look_again();
   } else if (status.power.laser == acquisition::LaserState::kUnknown) {
-    look_again();  // opening the board switches its laser and motor off
+    look_again();  // opening the board for the search switches laser and motor off
   }
   return status;
 }
@@ -116,7 +117,7 @@ auto ScannerStation::command(Action action) -> decltype(action()) {
 Expected<void> ScannerStation::jog(double degrees) {
   return command([&] {
     auto done = backend_.jog(degrees);
-    forget_laser();  // because the laser is off after a motion, and after an error
+    forget_laser();  // the laser is off after a motion and after an error
     return done;
   });
 }
@@ -136,7 +137,7 @@ Expected<void> ScannerStation::switch_laser_on(LaserPermit permit) {
 Expected<void> ScannerStation::switch_laser_off() {
   return command([&] {
     auto done = backend_.laser(false);
-    forget_laser();  // even after an error, which closes the devices
+    forget_laser();  // also after an error, because an error closes the devices
     return done;
   });
 }
@@ -154,7 +155,8 @@ void ScannerStation::forget_laser() {
 void ScannerStation::switch_manual_laser_off() {
   if (!laser_end()) return;
   const auto off = caught([this] { return backend_.laser(false); });
-  if (!off) backend_.close();  // which switches the laser off, or has the guardian do so
+  // closing switches the laser off, or makes the guardian process do so
+  if (!off) backend_.close();
   forget_laser();
 }
 
@@ -198,7 +200,7 @@ Expected<acquisition::Frame> ScannerStation::picture() {
 }
 
 void ScannerStation::stop() {
-  backend_.emergency_stop();  // first, because nothing may delay it
+  backend_.emergency_stop();  // comes first, because nothing may delay it
   forget_laser();
   const auto job = jobs_.job_of(name());
   if (!job) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner outside of its jobs: its state and an operator's manual commands.
+// The state of a scanner and an operator's manual commands to it, while no job uses the scanner.
 #pragma once
 
 #include <atomic>
@@ -30,10 +30,10 @@ struct ScannerStatus {
 // thread-safe.
 using LaserPermit = std::function<bool()>;
 
-// A laser that an operator has switched on goes off after this time.
+// A laser that an operator has switched on is switched off after this time.
 inline constexpr std::chrono::seconds kLongestLit{60};
-// If a command still occupies the board this long after the laser should have gone off, the station
-// makes an emergency stop.
+// If a command still occupies the board this long after the time at which the laser had to be off,
+// the station makes an emergency stop.
 inline constexpr std::chrono::seconds kLaserGrace{2};
 
 // Thread-safe. Commands fail with kState while a job uses the scanner, and with the errors of the
@@ -43,11 +43,11 @@ class ScannerStation {
   using Clock = std::chrono::steady_clock;
 
   // `backend` and `jobs` must outlive the station. Devices without a command for `idle_timeout` are
-  // closed, so that other programs can use them. `now` returns the time of the laser's limit.
+  // closed, so that other programs can use them. `now` is the clock for kLongestLit.
   ScannerStation(ScannerBackend& backend, JobQueue& jobs, std::chrono::milliseconds idle_timeout,
                  std::function<Clock::time_point()> now = Clock::now);
 
-  // Starts the first search for the scanner. Call it once. status() waits briefly for the result.
+  // Starts the first search for the scanner. Call this once. status() waits briefly for its result.
   void look_for_it();
 
   ScannerBackend& backend() { return backend_; }
@@ -58,11 +58,11 @@ class ScannerStation {
   ScannerStatus status();
 
   Expected<void> jog(double degrees);
-  // Switches the laser on until it is switched off, kLongestLit has passed, `permit` returns false,
-  // the table has been turned by hand, or a job begins.
+  // Switches the laser on. It stays on until it is switched off, kLongestLit has passed, `permit`
+  // returns false, the table has been jogged, or a job begins.
   Expected<void> switch_laser_on(LaserPermit permit);
   Expected<void> switch_laser_off();
-  // Takes a picture. Works during a paused scan, and does not undo an emergency stop.
+  // Takes a picture. Works even during a paused scan. An emergency stop stays in force.
   Expected<acquisition::Frame> picture();
 
   // Turns laser and motor off at once. Pauses a running scan and ends a running calibration.
@@ -72,8 +72,8 @@ class ScannerStation {
   void look();
   // Switches off a laser that an operator has switched on. Runs on the scanner's executor.
   void switch_manual_laser_off();
-  // Keeps a laser on that an operator has switched on, or switches it off once its time or its
-  // permit has ended. Call it once a second.
+  // If an operator has switched the laser on, keeps it on, or switches it off once its time limit
+  // has passed or its permit has ended. Call this once a second.
   void watch_manual_laser();
   // Posts a task to the scanner's executor that closes the devices.
   void close_after_all();
@@ -85,10 +85,11 @@ class ScannerStation {
   // Runs `task` on the scanner's executor and returns its result.
   template <class Task>
   auto on_executor(Task task, bool beside_paused = false) -> decltype(task());
-  // Runs a command on the scanner's executor, unless an emergency stop comes first.
+  // Runs a command on the scanner's executor, unless there is an emergency stop before its turn.
   template <class Action>
   auto command(Action action) -> decltype(action());
-  // Returns the time at which the lit laser must be off, or nullopt if no operator has lit it.
+  // Returns the time at which the lit laser must be off, or nullopt if no operator has switched it
+  // on.
   std::optional<Clock::time_point> laser_end();
   void forget_laser();
   void keep_laser_or_put_it_out();
@@ -99,7 +100,8 @@ class ScannerStation {
   JobQueue& jobs_;
   std::shared_future<void> looked_;  // the first search; valid after look_for_it()
   std::atomic<bool> is_looking_{false};
-  std::atomic<bool> is_tending_{false};  // whether a task that tends the laser waits or runs
+  // whether a task for watch_manual_laser() is waiting or running
+  std::atomic<bool> is_tending_{false};
   const std::function<Clock::time_point()> now_;
 
   std::mutex mutex_;  // guards the members below
@@ -109,7 +111,7 @@ class ScannerStation {
     Clock::time_point end;
     LaserPermit permit;
   };
-  std::optional<LitLaser> lit_;  // set while a laser is on that an operator has lit
+  std::optional<LitLaser> lit_;  // set while a laser is on that an operator has switched on
 };
 
 }  // namespace vitrine::server

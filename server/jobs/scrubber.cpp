@@ -21,7 +21,7 @@ void Scrubber::start(std::uint64_t rate) {
         } else {
           check_damaged();
         }
-      } catch (const std::exception& fault) {  // out of memory: continue after the pause
+      } catch (const std::exception& fault) {  // such as std::bad_alloc; continues after the pause
         needs_.events.event(Severity::kError, fault.what());
       }
       if (!wait_until(std::min(next, Clock::now() + kRetryAfter))) return;
@@ -34,7 +34,8 @@ void Scrubber::stop() {
   thread_ = {};
 }
 
-// Starts at a random object, so that a daemon that restarts often checks all objects in time.
+// Starts at a random object, so that a daemon that restarts often still checks all objects over
+// time.
 bool Scrubber::check_all() {
   check_catalogue();
   auto files = distinct_files(needs_.catalogue);
@@ -95,13 +96,13 @@ void Scrubber::check_damaged() {
   }
 }
 
-// Whether a model refers to the file. True if the catalogue cannot be read.
+// Whether a model refers to the file. Returns true if the catalogue cannot be read.
 bool Scrubber::is_named(const Sha256& file) {
   const auto files = needs_.catalogue.files();
   return !files || std::ranges::count(*files, file, &NamedFile::file) > 0;
 }
 
-// Counts the bytes and waits until the next ones may be read. Returns false if stop() was called.
+// Counts the bytes, and waits until more bytes may be read. Returns false if stop() was called.
 bool Scrubber::pace(std::uint64_t count) {
   bytes += count;
   const std::chrono::duration<double> cost(static_cast<double>(count) / static_cast<double>(rate_));

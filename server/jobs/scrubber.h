@@ -34,8 +34,8 @@ class Scrubber {
  public:
   // Time from the start of one pass to the start of the next.
   static constexpr std::chrono::hours kEvery{7 * 24};
-  // A damaged object is checked again after this time, to find out whether it was put back. A pass
-  // that failed starts again after this time.
+  // A damaged object is checked again after this time, to find out whether it has been repaired. A
+  // pass that failed starts again after this time.
   static constexpr std::chrono::minutes kRetryAfter{10};
   static constexpr std::uint64_t kDefaultRate = 8'000'000;  // bytes per second
 
@@ -43,7 +43,8 @@ class Scrubber {
   ~Scrubber() { stop(); }
 
   // Starts a thread that makes a pass at once and then every kEvery, and reads at most `rate` bytes
-  // per second. If `rate` is 0, only checks again what was found damaged. Call this once.
+  // per second. If `rate` is 0, makes no passes and only checks damaged objects again. Call this
+  // once.
   void start(std::uint64_t rate);
   void stop();
 
@@ -56,8 +57,10 @@ class Scrubber {
   void check_damaged();
 
   std::atomic<std::uint64_t> objects{0}, bytes{0};  // objects and bytes checked since the start
-  std::atomic<std::uint64_t> catalogue_faults{0};   // found in the last check of the catalogue
-  std::atomic<std::int64_t> finished{0};  // end of the last whole pass, in seconds since 1970; or 0
+  // number of faults found in the last check of the catalogue
+  std::atomic<std::uint64_t> catalogue_faults{0};
+  // end of the last complete pass, in seconds since 1970; 0 if there was none
+  std::atomic<std::int64_t> finished{0};
 
  private:
   using Clock = std::chrono::steady_clock;

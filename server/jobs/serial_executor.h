@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that runs tasks one after the other, in the order in which they were posted. An
-// exception that a task throws (out of memory) is logged, and the next task runs. The log must
+// A thread that runs tasks one after the other, in the order in which they were posted. If a task
+// throws (for example, out of memory), the exception is logged and the next task runs. The log must
 // outlive the executor.
 #pragma once
 

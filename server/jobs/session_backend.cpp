@@ -25,7 +25,7 @@ bool is_under_way(acquisition::ScanState state) {
          state == acquisition::ScanState::kMeshing;
 }
 
-// Returns the progress of a scan. `record` is present from the first step on.
+// Returns the progress of a scan. `record` is nullopt until the first step.
 ScanProgress progress_of(const acquisition::ScanStatus& status,
                          const std::optional<acquisition::ScanRecord>& record) {
   ScanProgress progress{
@@ -84,7 +84,7 @@ acquisition::ScanStatus follow(acquisition::Scan& scan, ScanListener& listener) 
     listener.report(progress_of(status, record));
     if (!is_under_way(status.state)) return status;
     if (asked || !listener.is_interrupted()) continue;
-    // A scan that is already meshing cannot be paused, but ends by itself.
+    // A scan that is already being meshed cannot be paused, but it ends by itself.
     asked = (listener.is_cancelled() ? scan.cancel() : scan.pause()).has_value();
   }
 }
@@ -121,8 +121,8 @@ Expected<void> SessionBackend::open_board() {
     return fail(ErrorCode::kState,
                 fmt::format("scanner {} was stopped; give it another command", config_.name));
   }
-  // Reopens a board that was stopped, unplugged or switched off by its watchdog since the last
-  // command.
+  // Closes a board that was stopped, unplugged or switched off by its watchdog since the last
+  // command, so that it is opened again.
   if (board_ && !board_->position()) close();
   if (board_) return {};
   auto board = scanner_.devices.open_board();
@@ -222,7 +222,7 @@ Expected<std::optional<TriangleMesh>> SessionBackend::scan(const ScanOrder& orde
   acquisition::ScanStatus end;
   try {
     end = follow(**scan, listener);
-  } catch (...) {  // ends the scan, so that others can open its devices
+  } catch (...) {  // ends the scan, so that other programs can open its devices
     static_cast<void>((*scan)->pause());
     while (is_under_way((*scan)->wait(kTick).state)) {
     }
@@ -324,8 +324,8 @@ Expected<std::vector<CalibrationSummary>> SessionBackend::calibrations() {
   return all;
 }
 
-// Returns the report of a calibration. If another program made the calibration, there is no report;
-// then returns the calibration file itself.
+// Returns the report of a calibration. If there is no report because another program made the
+// calibration, returns the calibration file itself.
 Expected<std::optional<std::string>> SessionBackend::calibration_report(int number) {
   auto report = text_of(acquisition::report_file(config_.calibrations, number));
   if (!report || *report) return report;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner backend for real devices and for the devices of the simulated rig.
+// The ScannerBackend for real devices, and for the devices of the simulated rig.
 #pragma once
 
 #include <mutex>

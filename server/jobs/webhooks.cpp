@@ -44,7 +44,7 @@ void Webhooks::stop() {
     executor->finish();
 }
 
-// Waits before the next try. Returns false if stop() is called before the wait ends.
+// Waits before the next attempt. Returns false if stop() is called during the wait.
 bool Webhooks::pause(int tries) {
   constexpr std::chrono::milliseconds kStep{100};
   for (int i = 0; i < 10 * tries * tries && !is_stopping_; ++i)

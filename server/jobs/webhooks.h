@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls webhooks when jobs end. Only hosts that the operator has named are called. Otherwise a
-// client of the API could make the daemon call servers inside the museum's network.
+// Calls webhooks when jobs end. Calls only hosts that the operator has listed. Otherwise a client
+// of the API could make the daemon call servers inside the museum's network.
 #pragma once
 
 #include <atomic>
@@ -22,10 +22,11 @@ namespace vitrine::server {
 struct WebhookMessage {
   std::string url;
   std::string id;    // ID of the message; all attempts to send it, by any daemon, use the same ID
-  std::string json;  // the body
+  std::string json;  // body of the message
   // Called right before each post. Returns false if another daemon has already posted the message.
   std::function<bool()> may;
-  // Called when the message is accepted or given up, but not after Webhooks::stop().
+  // Called when the server has accepted the message or the object has given up. Not called after
+  // Webhooks::stop().
   std::function<void()> done;
 };
 
@@ -42,7 +43,7 @@ class Webhooks {
 
   // Posts the message on another thread, with a few retries until the server accepts it, and logs
   // the outcome. Each server has its own thread, so that an unreachable one does not delay others.
-  // A message that already waits is not added again.
+  // A message that is already waiting is not added again.
   void call(WebhookMessage message);
 
   // Cancels the messages that are being sent and drops all waiting ones.

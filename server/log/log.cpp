@@ -24,7 +24,7 @@ void append_text(LogLine& line, std::string_view text) {
   line.append(text.data(), text.data() + text.size());
 }
 
-// Number of bytes that append_value() writes for a character of a text in quotes.
+// Returns how many bytes append_value() writes for a character of a quoted value.
 std::size_t escaped_size(char c) {
   if (c == '"' || c == '\\') return 2;
   return c >= ' ' && c < 0x7f ? 1 : 4;
@@ -53,9 +53,10 @@ void append(LogLine& line, std::string_view key, std::string_view value) {
   append_value(line, value);
 }
 
-// Appends a text that a client has sent. Cuts it so that no request makes a long line.
+// Appends a text that a client has sent. Cuts off long texts, so that no request can cause a long
+// line.
 void append_cut(LogLine& line, std::string_view key, std::string_view value) {
-  constexpr std::size_t kLongest = 256;  // bytes, escaped
+  constexpr std::size_t kLongest = 256;  // in bytes, after escaping
   std::size_t kept = 0;
   for (std::size_t written = 0; kept < value.size(); ++kept) {
     written += escaped_size(value[kept]);
@@ -71,7 +72,7 @@ void append_time(LogLine& line) {
       std::chrono::time_point_cast<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
   thread_local std::chrono::sys_seconds made{};
-  thread_local std::string text;  // the time, formatted once per second
+  thread_local std::string text;  // the formatted time, updated once per second
   if (made != seconds) {
     made = seconds;
     text = fmt::format("time={:%Y-%m-%dT%H:%M:%S}",
@@ -194,8 +195,8 @@ void Log::audit(const CommandRecord& record) const {
   write_line(descriptor_, line);
 }
 
-// Ignores exceptions: this function also reports lack of memory, and if that report fails, nothing
-// more can be done.
+// Ignores exceptions: this function also reports lack of memory, and if that report fails as well,
+// nothing more can be done.
 void Log::event(Severity severity, std::string_view message) const try {
   if (is_silent_.load(std::memory_order_relaxed)) return;
   LogLine line;

@@ -15,7 +15,7 @@
 
 namespace vitrine::server {
 
-// One answered request. The strings need to live only during the call.
+// One answered request. The strings must stay valid only during the call.
 struct AccessRecord {
   std::string_view request_id;
   std::string_view remote;  // address of the peer
@@ -27,18 +27,18 @@ struct AccessRecord {
   double seconds = 0;
 };
 
-// A request that tried to change data. The strings need to live only during the call.
+// A request that tried to change data. The strings must stay valid only during the call.
 struct AuditRecord {
   std::string_view request_id;
   std::string_view remote;  // address of the peer
-  std::string_view token;   // the token's ID; "-" without a valid token
+  std::string_view token;   // the token's ID; "-" if the request has no valid token
   std::string_view method;
   std::string_view route;   // the route's template
   std::string_view target;  // target as the client sent it: untrusted text, which the log cuts
   unsigned status = 0;
 };
 
-// A command that tried to change an installation. The strings need to live only during the call.
+// A command that tried to change an installation. The strings must stay valid only during the call.
 struct CommandRecord {
   std::string_view user;    // name or number of the user whose rights the command has
   std::string_view login;   // number of the user who logged in; "-" if the kernel does not know it
@@ -58,7 +58,7 @@ class Log {
   // FILE.old and the log continues in a new file. 0: no limit.
   static Expected<Log> open(const std::filesystem::path& file, std::uint64_t max_bytes = 0);
   static Log to_stderr();
-  // Writes to a file that is open for appending, and closes it at the end.
+  // Writes to a file that is already open for appending. Closes the file when the log is destroyed.
   static Log to_file(int descriptor);
   Log(Log&& other) noexcept;
   Log& operator=(Log&& other) noexcept;
@@ -79,8 +79,8 @@ class Log {
  private:
   explicit Log(int descriptor) : descriptor_(descriptor) {}
 
-  // The log's descriptor. Its number stays the same when the log is reopened. It refers to
-  // /dev/null if no log is written, and is -1 after a move.
+  // The log's descriptor. Its number does not change when the log is reopened. It refers to
+  // /dev/null if the log discards all lines. It is -1 after a move.
   int descriptor_;
   std::atomic<bool> is_silent_{false};
   std::unique_ptr<LineBatch> batch_ = std::make_unique<LineBatch>();
@@ -88,8 +88,8 @@ class Log {
 };
 
 // Returns `value` in logfmt. A value of unambiguous printable ASCII characters stays unquoted. Any
-// other value is quoted: \" and \\ are escaped, and every control or non-ASCII byte becomes \xNN.
-// So no request can forge a line.
+// other value is quoted: \" and \\ are escaped, and every control or non-ASCII byte becomes \xNN. A
+// request therefore cannot forge log lines.
 std::string logfmt_value(std::string_view value);
 
 }  // namespace vitrine::server

@@ -36,7 +36,7 @@ Expected<void> continue_in(const std::filesystem::path& file, int descriptor) {
   return result;
 }
 
-// Whether `file` is still a name of the open file whose status is `open`.
+// Whether `file` is still a path of the open file whose status is `open`.
 bool is_name_of(const std::filesystem::path& file, const struct stat& open) {
   struct stat named {};
   return ::stat(file.c_str(), &named) == 0 && named.st_dev == open.st_dev &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the file of a log, and replaces the file when it has grown to its limit. So a log takes at
-// most twice this limit on the disk.
+// Opens the file of a log, and replaces the file when it has grown to its limit. The log therefore
+// takes at most twice this limit on the disk.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace vitrine::server {
 // The file in which a log is written. Thread-safe.
 class LogFile {
  public:
-  // Makes `descriptor` refer to `file`: "-" is standard error, an empty path is /dev/null. A
-  // regular file that has reached `max_bytes` is replaced; 0: never. If the file cannot be opened
-  // (kIo), changes nothing.
+  // Makes `descriptor` refer to `file`. "-" means standard error, and an empty path means
+  // /dev/null. Replaces a regular file that has reached `max_bytes`, unless `max_bytes` is 0.
+  // If the file cannot be opened (kIo), `descriptor` stays unchanged.
   Expected<void> open(int descriptor, const std::filesystem::path& file, std::uint64_t max_bytes);
 
   // If the file has reached its limit, renames it to FILE.old, which replaces an older one, and
-  // continues in a new file. If another process has renamed the file already, only continues in the
-  // new one. If the change of files fails, the log continues in the old file.
+  // continues in a new file. If another process has already renamed the file, continues in the new
+  // file. If any of this fails, the log continues in the old file.
   void replace_if_full(int descriptor);
 
  private:

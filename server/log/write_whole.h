@@ -6,8 +6,8 @@
 
 namespace vitrine::server {
 
-// Calls write(2) until all of `text` is written. If an error occurs, the rest is lost, since a full
-// disk must not stop the service.
+// Calls write(2) until all of `text` is written. If an error occurs, drops the rest of the text,
+// because a full disk must not stop the service.
 void write_whole(int descriptor, std::string_view text);
 
 }  // namespace vitrine::server

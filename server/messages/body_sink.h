@@ -18,9 +18,9 @@ class BodySink {
   // request; the rest of the body is then not read.
   virtual std::optional<Response> take(std::span<const std::uint8_t> piece) = 0;
 
-  // Called after the last piece, unless take() has returned a response. The body may be incomplete,
-  // since the client may have disconnected or the server may be shutting down. Returns the response
-  // to the request.
+  // Called after the last piece, unless take() has returned a response. The body may be incomplete
+  // if the client has disconnected or the server is shutting down. Returns the response to the
+  // request.
   virtual Response finish() = 0;
 };
 

@@ -81,7 +81,8 @@ Response partial(Response response, const RangeChoice& range) {
 }  // namespace
 
 bool matches_any(std::string_view list, std::string_view etag) {
-  // A client may have received the state that it means as a compressed body.
+  // Also accepts the entity tag of the compressed body, because the client may have received that
+  // form of the state.
   std::string compressed(etag);
   if (etag.ends_with('"')) compressed.insert(compressed.size() - 1, kGzipTagEnd);
   return holds(list, [&](std::string_view tag) { return tag == etag || tag == compressed; });
@@ -122,7 +123,7 @@ Response apply_conditions(const RequestHeader& request, Response response,
       request.method() != beast::http::verb::get) {
     return response;
   }
-  // An If-Range with a date never equals the ETag, so the whole body is sent.
+  // If If-Range is a date, it never equals the entity tag, so the whole body is sent.
   if (!if_range.empty() && if_range != response.etag) return response;
   const std::uint64_t size = body_size(response.body);
   const RangeChoice choice = choose_range(range, size);

@@ -21,16 +21,16 @@ bool matches_any_weakly(std::string_view list, std::string_view etag);
 
 struct RangeChoice {
   enum class Kind { kWhole, kPart, kUnsatisfiable } kind = Kind::kWhole;
-  std::uint64_t offset = 0, length = 0;  // the bytes chosen, if `kind` is kPart
+  std::uint64_t offset = 0, length = 0;  // the selected bytes, if `kind` is kPart
 };
-// Chooses the part of a body of `size` bytes that a Range field asks for. Returns kUnsatisfiable if
-// that part is empty. Returns kWhole if the field has several ranges, another unit or a malformed
-// value, as RFC 9110, section 14.2, allows.
+// Selects the part of a body of `size` bytes that a Range field requests. Returns kUnsatisfiable if
+// that part is empty. Returns kWhole if the field has several ranges, a unit other than bytes, or a
+// malformed value, as RFC 9110, section 14.2, allows.
 RangeChoice choose_range(std::string_view range, std::uint64_t size);
 
 // Applies If-None-Match and Range of the request to `response`, the complete response to a GET or
-// HEAD. Returns 304, 206 or 416 if they require it, otherwise `response`. Returns responses other
-// than 200 and responses without an ETag unchanged.
+// HEAD. Returns a response with status 304, 206 or 416 if these fields require it, otherwise
+// `response`. Returns responses unchanged that have another status than 200 or no ETag.
 Response apply_conditions(const RequestHeader& request, Response response,
                           std::string_view request_id);
 

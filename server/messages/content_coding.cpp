@@ -43,7 +43,8 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// Whether in_accepted_coding() may compress the response, apart from its size.
+// Whether the response is public JSON. in_accepted_coding() compresses such a response if its size
+// permits.
 bool is_public_json(const Response& response) {
   return response.status == 200 && response.caching == Caching::kRevalidate &&
          (response.type.starts_with("application/json") ||
@@ -51,8 +52,8 @@ bool is_public_json(const Response& response) {
          std::holds_alternative<std::string>(response.body);
 }
 
-// Marks a response whose body is a gzip file. Without this tag of its own, a cache could join parts
-// of both forms.
+// Marks a response whose body is a gzip file. Its entity tag differs from that of the uncompressed
+// form. Otherwise a cache could combine parts of both forms.
 void mark_compressed(Response& response) {
   response.fields.emplace_back("Content-Encoding", "gzip");
   if (response.etag.ends_with('"')) response.etag.insert(response.etag.size() - 1, kGzipTagEnd);
@@ -98,7 +99,7 @@ std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes) {
     bytes = bytes.subspan(given - stream.avail_in);
     out.insert(out.end(), piece.data(), stream.next_out);
   }
-  out.shrink_to_fit();  // caches count the size, not the capacity
+  out.shrink_to_fit();  // caches count the size of a file, not its capacity
   return out;
 }
 

@@ -30,19 +30,20 @@ std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes);
 // The end of the entity tag of a compressed body, before the closing quote.
 inline constexpr std::string_view kGzipTagEnd = "-gzip";
 
-// Bodies that are smaller are sent as they are: they fit in one packet.
+// Smaller bodies are not compressed, because they fit into one packet anyway.
 inline constexpr std::size_t kLeastToCompress = 1024;
 
 // Compresses the body of a response with gzip if the request allows it. Only public JSON from
 // kLeastToCompress to `most` bytes is compressed. The entity tag of a compressed body ends in
-// kGzipTagEnd. The request's conditions and range refer to the result (RFC 9110, section 14.2), so
-// apply_conditions() must come later.
+// kGzipTagEnd. The request's conditions and range refer to the compressed form (RFC 9110, section
+// 14.2), so apply_conditions() must be called afterwards.
 Response in_accepted_coding(const RequestHeader& request, Response response, std::size_t most);
 
 // Returns a document with its entity tag and, if it is large enough, its compressed form.
 std::shared_ptr<const Document> make_document(std::string json);
 
-// Returns a response with a public document, compressed if the request allows it. Copies nothing.
+// Returns a response with a public document, compressed if the request allows it. Does not copy the
+// document.
 Response kept_json(const RequestHeader& request, std::shared_ptr<const Document> document);
 
 }  // namespace vitrine::server

@@ -23,8 +23,8 @@ bool is_unsafe(char c) {
          std::string_view("/\\:*?\"<>|%;").find(c) != std::string_view::npos;
 }
 
-// Whether a character of several bytes is a control (U+0080 to U+009F), a separator of lines, or
-// changes the direction of text, which could disguise the extension.
+// Whether a character of several bytes is a control character (U+0080 to U+009F), a line separator,
+// or a character that changes the direction of text. The direction could disguise the extension.
 bool is_unseen(std::string_view character) {
   if (character.size() == 2)
     return character == "\u061C" || (character[0] == '\xC2' && character[1] < '\xA0');

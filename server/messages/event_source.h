@@ -9,13 +9,13 @@ namespace vitrine::server {
 
 struct Event {
   std::string name, data;  // one line each
-  // One line that a client sends as Last-Event-ID when it connects again.
+  // One line. The client sends it back as Last-Event-ID when it reconnects.
   std::string id;
 };
 
 // A source belongs to one connection, which calls its functions at most five times a second and
 // never from two threads at once. The connection calls next() only after the previous event has
-// been sent. A slow client therefore misses intermediate states, and events do not pile up in
+// been sent. A slow client therefore misses intermediate states, but events do not accumulate in
 // memory. Functions must not block, and may throw only std::bad_alloc.
 class EventSource {
  public:

@@ -22,7 +22,7 @@ Response problem(unsigned status, std::string_view detail, std::string_view requ
   Response response;
   response.status = status;
   response.type = kProblemType;
-  // The text may come from a client, so invalid UTF-8 is replaced.
+  // Replaces invalid UTF-8, because the text may come from a client.
   response.body = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   return response;
 }

@@ -18,9 +18,9 @@ struct ParameterFault {
 };
 
 // Returns an error response. `detail` explains the fault to the client. The response omits `detail`
-// for status 500 and above, since the text may describe the server's internals; the log has the
-// text under the request ID. Only 507 (insufficient storage) keeps `detail`, since the client can
-// act on it.
+// if the status is 500 or above, because the text may describe the server's internals; the log has
+// the text under the request ID. Only 507 (insufficient storage) keeps `detail`, because the client
+// can act on it.
 Response problem(unsigned status, std::string_view detail, std::string_view request_id,
                  const std::vector<ParameterFault>& errors = {});
 

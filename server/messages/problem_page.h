@@ -11,8 +11,9 @@ namespace vitrine::server {
 // text/html and not JSON.
 bool wants_page(const RequestHeader& request);
 
-// Returns `problem` (application/problem+json) as an HTML page that says what to do next, in German
-// if the Accept-Language field starts with it, else in English. Status and header fields stay.
+// Returns `problem` (application/problem+json) as an HTML page that states the next step. The page
+// is in German if German comes first in the Accept-Language field, else in English. Keeps the
+// status and the header fields.
 Response problem_page(Response problem, const RequestHeader& request);
 
 }  // namespace vitrine::server

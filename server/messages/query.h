@@ -12,7 +12,8 @@
 namespace vitrine::server {
 
 // The parts of a request's target before and after '?', still percent-encoded. split_target() drops
-// the origin of an absolute target ("http://host/path"). It returns nullopt if there is no path.
+// the origin of an absolute target ("http://host/path"). split_target() returns nullopt if there is
+// no path.
 struct RequestTarget {
   std::string_view path, query;
 };

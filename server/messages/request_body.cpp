@@ -8,9 +8,8 @@
 namespace vitrine::server {
 namespace {
 
-// Whether the media type is JSON, or a JSON merge patch (RFC 7396), as which a PATCH may send its
-// changes. Ignores parameters such as "; charset=utf-8", since JSON is
-// always UTF-8.
+// Whether the media type is JSON, or a JSON merge patch (RFC 7396), which a PATCH may send. Ignores
+// parameters such as "; charset=utf-8", because JSON is always UTF-8.
 bool is_json(std::string_view media_type) {
   std::string_view name = media_type.substr(0, media_type.find(';'));
   while (name.ends_with(' ') || name.ends_with('\t'))
@@ -48,7 +47,7 @@ tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
   if (text.size() > kMaxRequestBody) return tl::unexpected(BodyFault{413, "the body is too large"});
   if (!is_json(media_type))
     return tl::unexpected(BodyFault{415, "send the body as application/json"});
-  // The library would treat a NUL byte as the end of the text.
+  // Checks for NUL bytes, because the library would treat one as the end of the text.
   if (text.find('\0') != text.npos) return tl::unexpected(BodyFault{400, "the body is not JSON"});
   Watch watch;
   nlohmann::json json = nlohmann::json::parse(text, std::ref(watch), /*allow_exceptions=*/false);

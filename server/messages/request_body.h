@@ -8,7 +8,7 @@
 
 namespace vitrine::server {
 
-inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // in bytes
+inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // largest size of a body, in bytes
 inline constexpr int kMaxBodyDepth = 16;                   // levels of nested arrays and objects
 
 struct BodyFault {

@@ -28,8 +28,8 @@ std::string_view cache_control(Caching caching) {
   return "";
 }
 
-// Returns the value of the Date field (RFC 9110, 5.6.7). Formats it at most once per second and
-// thread.
+// Returns the value of the Date field (RFC 9110, 5.6.7). Each thread formats it at most once per
+// second.
 std::string_view date_field() {
   thread_local std::time_t made = 0;
   thread_local std::string text;
@@ -41,20 +41,20 @@ std::string_view date_field() {
   return text;
 }
 
-// Header fields of HTML pages. Their content security policy allows only the daemon's own scripts,
-// workers, WebAssembly and connections ('self' includes WebSockets), so markup in a model's title
-// can neither run scripts nor send data to other hosts.
+// Header fields of HTML pages. Their content security policy allows only scripts, workers,
+// WebAssembly and connections of the daemon itself ('self' includes WebSockets). Markup in a
+// model's title can therefore neither run scripts nor send data to other hosts.
 constexpr std::string_view kPagePolicy =
     "Content-Security-Policy: default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; "
     "worker-src 'self' blob:; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'self'";
 
-// Continues kPagePolicy for pages that no other site may frame, since their buttons move motors and
-// delete models (clickjacking).
+// Continues kPagePolicy for pages that no other site may show in a frame (clickjacking), because
+// their buttons move motors and delete models.
 constexpr std::string_view kNoFrames = "; frame-ancestors 'none'\r\nX-Frame-Options: DENY";
 
 std::string_view reason(unsigned status) {
-  if (status == 460) return "Checksum Mismatch";  // tus 1.0.0
+  if (status == 460) return "Checksum Mismatch";  // a status defined by tus 1.0.0
   const auto text = beast::http::obsolete_reason(static_cast<beast::http::status>(status));
   return {text.data(), text.size()};
 }

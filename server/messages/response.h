@@ -19,8 +19,8 @@ enum class Caching {
   kNever,       // no-store: never cached
   kPrivate,     // private, no-store: only for this caller; pages of other origins may not read it
   kRevalidate,  // no-cache: stored, but revalidated before each use
-  // The URL names the content. Browsers keep it for a year. Shared caches ask again after two
-  // minutes, since the content may be withdrawn (s-maxage of RFC 9111; RFC 5861).
+  // The content of this URL never changes. Browsers keep it for a year. Shared caches revalidate it
+  // after two minutes, because the content may be withdrawn (s-maxage of RFC 9111; RFC 5861).
   kImmutable,
 };
 
@@ -28,7 +28,7 @@ struct Response {
   unsigned status = 200;
   std::string type;  // media type of the body; empty if there is no body
   Caching caching = Caching::kNever;
-  std::string etag;  // a strong entity tag including its quotes; empty if none
+  std::string etag;  // a strong entity tag including its quotes; empty if there is none
   // Whether pages of other sites may show this page in a frame.
   bool is_embeddable = false;
   std::vector<std::pair<std::string_view, std::string>> fields;  // further header fields
@@ -54,16 +54,17 @@ struct HeadOptions {
   std::string_view request_id;
   bool keep_alive = true;
   bool is_public_read = true;  // whether pages of any origin may read and embed the response
-  std::string_view trusted_origin = {};  // an origin whose pages may read the response; or empty
-  // HTTP version of the request: 11 for HTTP/1.1. HTTP/1.0 keeps a connection open only if both
-  // sides ask for it.
+  // an origin whose pages may read the response; empty if there is none
+  std::string_view trusted_origin = {};
+  // HTTP version of the request, such as 11 for HTTP/1.1. An HTTP/1.0 connection stays open only if
+  // both sides ask for it.
   unsigned version = 11;
-  // Whether this server uses TLS, so that Strict-Transport-Security is sent.
+  // Whether the connection uses TLS. If so, Strict-Transport-Security is sent.
   bool is_encrypted = false;
 };
 
-// Adds the name of a request field to the response's Vary field, which lists the fields that choose
-// between several representations (RFC 9110, section 12.5.5).
+// Adds the name of a request field to the Vary field of the response. Vary lists the request fields
+// that determine which representation the server sends (RFC 9110, section 12.5.5).
 void add_vary(Response& response, std::string_view name);
 
 // Returns the status line and the header fields, up to and including the empty line.

@@ -17,7 +17,7 @@ std::string_view allowed_by(Method method) {
     case Method::kDelete:
       return "DELETE, ";
     case Method::kOptions:
-      break;  // every path allows OPTIONS
+      break;  // OPTIONS is not listed, because every path allows it
   }
   return "";
 }

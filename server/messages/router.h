@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the route for a request's path and method. A parameter in a path must match the pattern
-// that the application gives for it, so handlers see only text that a pattern has accepted.
+// that the application defines for it, so handlers receive only values that match a pattern.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,8 @@
 
 namespace vitrine::server {
 
-// A parameter and the function that tells which texts may replace `{name}` in the path of a route.
+// A parameter, and the function that decides which texts may replace `{name}` in the path of a
+// route.
 struct ParameterPattern {
   std::string_view name;
   bool (*matches)(std::string_view text);
@@ -71,8 +72,8 @@ enum class Executor : std::uint8_t {
   kDevice,   // a thread for handlers that wait for devices, for up to several seconds
 };
 
-// A kGet route also answers HEAD. If a path has no kOptions route, the server answers OPTIONS with
-// the path's methods.
+// A kGet route also answers HEAD requests. If a path has no kOptions route, the server itself
+// answers OPTIONS requests with the methods of the path.
 enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kOptions };
 
 struct Route {
@@ -81,15 +82,17 @@ struct Route {
   // path.
   std::string_view path;
   Handler handler;
-  // Optional. Called on the connection's thread before the caller is known. If the result is
-  // nullopt and the caller is then authorised, the server calls this function again with the
-  // caller.
+  // Optional. The server calls this function on the connection's thread before the caller is known.
+  // If it returns nullopt and the caller is then authorised, the server calls it again, now with
+  // the caller.
   QuickHandler quick;
   Executor executor = Executor::kInline;
   Role role = Role::kNone;  // the lowest role that a caller needs; kNone: no token is needed
-  // For POST and PATCH: true to parse the body as JSON, false if Response::sink receives it.
+  // For POST and PATCH: true if the server parses the body as JSON, false if Response::sink
+  // receives the body.
   bool reads_body = true;
-  // Whether this is an emergency stop, which neither rate limits nor queues delay.
+  // Whether this is the route of an emergency stop, which must not be delayed by rate limits or
+  // queues.
   bool is_urgent = false;
 };
 
@@ -125,7 +128,7 @@ class Router {
   // Returns the template of a route, as an index into templates().
   std::size_t template_of(std::size_t route) const { return template_of_[route]; }
 
-  // Returns the first match, or nullopt.
+  // Returns the first route whose template matches `path`, or nullopt.
   std::optional<RouteMatch> match(std::string_view path) const;
   // Returns the route for `method` that has the template of `match`; nullopt if there is none.
   std::optional<std::size_t> find(const RouteMatch& match, Method method) const;

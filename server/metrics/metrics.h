@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts requests and bytes, and writes the counts as text for Prometheus (exposition format
-// 0.0.4). Labels are route templates and classes of status codes. Their number is fixed at start
-// and does not depend on the requests of clients.
+// 0.0.4). Labels are route templates and classes of status codes. The number of labels is fixed at
+// the start, so clients cannot increase it.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class Metrics {
   std::atomic<std::uint64_t> stream_bytes{0};    // chunk bytes sent over streams
   std::atomic<std::uint64_t> unknown_tokens{0};  // requests with a token that is unknown or revoked
 
-  // Refused requests that are not logged, because their address had too many of them.
+  // Number of refused requests that are not logged because their addresses had too many of them.
   std::atomic<std::uint64_t> refusals_not_logged{0};
 
   std::string text() const;
@@ -48,7 +48,7 @@ class Metrics {
   struct RouteCounters {
     std::string name;
     std::array<Counter, 5> statuses{};  // requests by status class, 1xx to 5xx
-    // Requests by duration; the last bucket is +Inf.
+    // Requests by duration in seconds; the last bucket is +Inf.
     std::array<Counter, kBounds.size() + 1> buckets{};
     Counter bytes{0};
     Counter nanoseconds{0};

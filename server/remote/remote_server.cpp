@@ -224,8 +224,8 @@ Expected<RemoteAnswer> RemoteServer::ask(const RemoteRequest& request) {
   RemoteAnswer answer;
   HttpTransfer transfer{curl, request, answer};
   std::vector<std::string> lines = request.fields;
-  // Removes libcurl's field "Expect" from unsigned requests only. A signed request would include
-  // the empty field in its signature but not send it.
+  // Removes libcurl's own field "Expect", but only from unsigned requests: in a signed request,
+  // libcurl would include the empty field in the signature but not send it.
   if (request.signer == nullptr) lines.emplace_back("Expect:");
   const List fields = list_of(lines);
   set_body(curl, transfer);
@@ -242,7 +242,7 @@ Expected<RemoteAnswer> RemoteServer::ask(const RemoteRequest& request) {
   const CURLcode code = curl_easy_perform(curl);
   curl_easy_getinfo(curl, CURLINFO_RESPONSE_CODE, &answer.status);
   answer.certificate_days = days_left(curl);
-  // An error response may arrive before the whole body was sent.
+  // The server may send an error response before it has received the whole body.
   if (code == CURLE_OK || (code == CURLE_SEND_ERROR && answer.status >= 400)) return answer;
   return handle_->failed(request, code);
 }

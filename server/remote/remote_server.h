@@ -26,12 +26,13 @@ struct RemoteSigner {
 struct RemoteRequest {
   std::string method = "GET";
   std::string url;
-  std::vector<std::string> fields = {};             // header fields, each "Name: value"
+  std::vector<std::string> fields = {};             // header fields, each in the form "Name: value"
   std::span<const std::uint8_t> body = {};          // must outlive the request
-  std::function<void(std::uint64_t)> on_sent = {};  // called with the number of body bytes sent
+  std::function<void(std::uint64_t)> on_sent = {};  // receives the number of body bytes sent
   std::chrono::seconds timeout{30};  // limit for connecting, and for a stalled transfer
-  std::optional<std::chrono::seconds> to_connect = {};  // replaces `timeout` for connecting
-  std::chrono::seconds deadline{0};                     // limit for the whole request; 0: none
+  // time limit for connecting; nullopt: `timeout`
+  std::optional<std::chrono::seconds> to_connect = {};
+  std::chrono::seconds deadline{0};      // limit for the whole request; 0: none
   std::function<bool()> given_up = {};   // called each second; returns true to cancel
   const RemoteSigner* signer = nullptr;  // null: the request is not signed
   bool bypasses_proxy = false;           // whether to ignore the environment's proxy
@@ -44,7 +45,7 @@ struct RemoteAnswer {
   long status = 0;
   std::map<std::string, std::string> fields;  // names in lower case
   std::string body;                           // at most the first kMost bytes
-  // Days until the server's certificate expires; nullopt without TLS.
+  // Days until the server's certificate expires; nullopt if TLS is not used.
   std::optional<double> certificate_days;
 
   static constexpr std::size_t kMost = 4 << 20;
@@ -64,11 +65,10 @@ class RemoteServer {
   RemoteServer& operator=(const RemoteServer&) = delete;
 
   // Sends a request and returns the answer. Any HTTP status counts as an answer; redirections are
-  // not followed. kIo if there is no answer.
+  // not followed. Fails with kIo if there is no answer.
   Expected<RemoteAnswer> ask(const RemoteRequest& request);
 
-  // Sends an upgrade request without a body, on a new connection, and returns the head of the
-  // answer.
+  // Sends an upgrade request without a body on a new connection. Returns the head of the answer.
   Expected<std::string> upgrade(const RemoteRequest& request);
 
  private:

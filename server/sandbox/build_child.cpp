@@ -39,11 +39,11 @@ Unexpected refused(const char* what) {
                                           std::strerror(errno)));
 }
 
-// Largest size in bytes of the working file, so that one build does not fill the disk that it
-// shares with models and uploads. This suffices for 70 million triangles. A larger mesh can be
-// built elsewhere, and its .pmesh file uploaded.
+// Largest size in bytes of the working file, so that one build does not fill the disk, on which
+// models and uploads may be as well. The size suffices for 70 million triangles. A larger mesh can
+// be built elsewhere, and its .pmesh file uploaded.
 constexpr std::uint64_t kMostSpilled = 16ull << 30;
-constexpr std::size_t kMostRepairs = 4096;  // length of ChildResult::repairs
+constexpr std::size_t kMostRepairs = 4096;  // largest size in bytes of ChildResult::repairs
 
 SandboxLimits limits_of(const std::filesystem::path& folder) {
   return {.spill = {.folder = folder, .max_bytes = kMostSpilled}};
@@ -130,7 +130,7 @@ int number(std::string_view text) {
   return value;
 }
 
-// Returns the mesh; nullopt if the address space has no room for it.
+// Returns the mesh, mapped into memory, or nullopt if the address space has no room for it.
 std::optional<std::span<const std::uint8_t>> map_input() {
   using Mesh = std::span<const std::uint8_t>;
   struct stat status {};
@@ -149,7 +149,8 @@ void close_the_rest() {
   ::close_range(STDERR_FILENO + 1, ~0u, 0);
 }
 
-// Appends the lines to the file, and then their length in four bytes; see separate().
+// Appends the lines to the file, and then the length of the lines in four bytes. separate() reads
+// this form.
 Bytes joined(Bytes file, const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines)
@@ -171,7 +172,8 @@ Expected<Bytes> verify(std::span<const std::uint8_t> pmesh, const ProgressReport
 void become_build_child(std::span<const std::string_view> arguments) {
   if (arguments.size() != kArguments || arguments[0] != kChild) return;
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != number(arguments[1])) ::_exit(1);  // the parent may have died before prctl()
+  // the parent may have died before the call of prctl()
+  if (::getppid() != number(arguments[1])) ::_exit(1);
   std::signal(SIGPIPE, SIG_DFL);
   close_the_rest();
   const auto mesh = map_input();
@@ -193,7 +195,7 @@ void become_build_child(std::span<const std::string_view> arguments) {
 void BuildChild::watch(int pid) {
   const std::scoped_lock lock(mutex_);
   child_ = FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
-  // The parent has not called wait() for the child yet, so no other process can have its PID.
+  // The PID cannot belong to another process: the parent has not yet called wait() for the child.
   if (is_stopped_) ::kill(pid, SIGKILL);
 }
 

@@ -20,10 +20,11 @@ namespace vitrine::server {
 struct BuildOrder {
   int bits = 0;  // see BuildOptions::bits
   Placement placement = Placement::kMidpoint;
-  bool z_is_up = false;          // whether z is up in the mesh; in the model, y is always up
-  std::string unit = {};         // see ReadOptions::unit
-  std::string name = {};         // see ReadOptions::name
-  std::filesystem::path folder;  // folder of the spill file (spill.h); empty: no spilling
+  bool z_is_up = false;   // whether z is up in the mesh; in the model, y is always up
+  std::string unit = {};  // see ReadOptions::unit
+  std::string name = {};  // see ReadOptions::name
+  // folder of the spill file (spill.h); empty if there must be no spill file
+  std::filesystem::path folder;
   std::filesystem::path program = "/proc/self/exe";  // executable that calls become_build_child()
 };
 
@@ -41,12 +42,12 @@ struct ChildResult {
 class BuildChild {
  public:
   // Builds a model from a mesh file or a package with one. If `mesh` is a .pmesh file, only
-  // verifies it, ignores `order` and returns no bytes. Errors: those of run_sandboxed() and
-  // build_model(); kState after stop().
+  // verifies it, ignores `order` and returns no bytes. Fails with the errors of run_sandboxed() and
+  // build_model(), and with kState after stop().
   Expected<ChildResult> build(std::span<const std::uint8_t> mesh, const BuildOrder& order,
                               const ProgressReport& progress);
-  // Builds or verifies as above, but reads from an open file. The file must not change during the
-  // call.
+  // Like the overload above, but reads the mesh from an open file. The file must not change during
+  // the call.
   Expected<ChildResult> build(const FileDescriptor& mesh, const BuildOrder& order,
                               const ProgressReport& progress);
 

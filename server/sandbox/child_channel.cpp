@@ -36,17 +36,18 @@ constexpr std::uint64_t kMaxText = 4096;
 // Exit codes of a child that cannot send an error.
 constexpr int kOutOfMemory = 77;
 constexpr int kCannotAnswer = 78;
-constexpr int kOutOfAddressSpace = 79;  // out of address space because of an inherited limit
+constexpr int kOutOfAddressSpace = 79;  // an inherited limit on the address space was too low
 constexpr int kNoThread = 80;
 constexpr int kNotLoaded = 127;  // exit code of the dynamic loader
 
-// The hard limit on this process's address space, in bytes. A child inherits its parent's.
+// Returns this process's hard limit on address space, in bytes. A child inherits the limit of its
+// parent.
 std::uint64_t address_space() {
   rlimit limit{};
   return ::getrlimit(RLIMIT_AS, &limit) == 0 ? limit.rlim_max : RLIM_INFINITY;
 }
 
-// The functions up to in_gigabytes() run in the child.
+// The functions from here to in_gigabytes() run in the child.
 
 void send_all(int fd, const void* data, std::size_t size) {
   const auto* bytes = static_cast<const std::uint8_t*>(data);
@@ -85,7 +86,7 @@ bool lacks_address_space(const SandboxLimits& limits) {
 
 int exit_code_without_memory = kOutOfMemory;
 
-// Ends the process with the exit code that stands for the current exception.
+// Ends the process with the exit code that stands for the exception being handled.
 [[noreturn]] void exit_for_exception() noexcept {
   try {
     if (const auto fault = std::current_exception()) std::rethrow_exception(fault);
@@ -207,8 +208,8 @@ class Receiver {
  public:
   Receiver(int fd, const SandboxLimits& limits) : fd_(fd), limits_(limits) {}
 
-  // Returns the child's result or error, or nullopt if the child closed the pipe without sending
-  // one. Reports the progress messages that come first.
+  // Returns the child's result, or fails with its error. Returns nullopt if the child closed the
+  // pipe without sending either. Passes the progress messages that arrive first to `progress`.
   Expected<std::optional<Bytes>> receive(const ProgressReport& progress) {
     for (;;) {
       MessageHeader header;
@@ -225,8 +226,8 @@ class Receiver {
   }
 
  private:
-  // Reads the bytes after a header; nullopt if the stream ends early. Memory grows with the bytes
-  // received, because the announced length may be false.
+  // Reads the bytes that follow a header. Returns nullopt if the stream ends early. Allocates
+  // memory step by step as bytes arrive, because the announced length may be false.
   Expected<std::optional<Bytes>> read_payload(const MessageHeader& header) {
     constexpr std::uint64_t kStep = 16u << 20;
     if (header.size > (header.kind == MessageKind::kResult ? limits_.answer_bytes : kMaxText)) {
@@ -245,7 +246,8 @@ class Receiver {
     return payload;
   }
 
-  // Fills `out`. Returns false if the stream ends first, and kLimit if the wall time has passed.
+  // Fills `out`. Returns false if the stream ends first. Fails with kLimit if the wall time has
+  // passed.
   Expected<bool> read_exactly(std::span<std::uint8_t> out) {
     while (!out.empty()) {
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now());

@@ -14,8 +14,8 @@ namespace vitrine::server {
 [[noreturn]] void answer_and_exit(int fd, const SandboxLimits& limits,
                                   const SandboxedTask& task) noexcept;
 
-// Called in the child, between the start and the end of answer_and_exit(). Ends the process; the
-// parent receives the error kLimit, which says which limit on memory was too low.
+// Called in the child while answer_and_exit() runs. Ends the process. The parent then gets the
+// error kLimit, which states which memory limit was too low.
 [[noreturn]] void exit_without_memory() noexcept;
 
 // Called in the parent. Returns the result that child `pid` sends over `fd`. Kills the child if it

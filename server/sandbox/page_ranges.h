@@ -18,14 +18,15 @@ class PageRanges {
   explicit PageRanges(std::size_t size) { release(0, size / kPage * kPage); }
 
   // Allocates `size` (> 0) bytes, rounded up to whole pages. Returns the offset, or nullopt if no
-  // free range is long enough. Uses the shortest free range that fits, so that long ones are kept.
+  // free range is long enough. Uses the shortest free range that is long enough, so that long
+  // ranges are kept for large blocks.
   std::optional<std::size_t> take(std::size_t size);
 
   // Frees the range at `offset`, a result of take(). Returns the size of the range.
   std::size_t give_back(std::size_t offset);
 
   std::size_t taken() const { return taken_bytes_; }
-  std::size_t end() const { return end_; }  // highest end of all ranges so far
+  std::size_t end() const { return end_; }  // highest end of any range allocated so far
 
  private:
   void release(std::size_t offset, std::size_t size);

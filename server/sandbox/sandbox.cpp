@@ -63,8 +63,8 @@ constexpr int kAllowed[] = {SCMP_SYS(read),
                             SCMP_SYS(clock_nanosleep),
                             SCMP_SYS(restart_syscall)};
 
-// System calls that fail as if the user had no permission. Libraries try them and can continue
-// without them.
+// System calls that fail with the error "permission denied". Libraries try these calls and can
+// continue if they fail.
 constexpr int kDenied[] = {SCMP_SYS(open),       SCMP_SYS(openat),     SCMP_SYS(openat2),
                            SCMP_SYS(newfstatat), SCMP_SYS(stat),       SCMP_SYS(access),
                            SCMP_SYS(faccessat),  SCMP_SYS(faccessat2), SCMP_SYS(readlink),
@@ -99,14 +99,15 @@ class Rules {
   int result_ = 0;
 };
 
-// Returns a condition on an argument of a system call. libseccomp's macros for this work only in C.
+// Returns a condition on an argument of a system call. libseccomp offers only macros for this,
+// which work only in C.
 scmp_arg_cmp argument(unsigned index, scmp_compare how, scmp_datum_t a, scmp_datum_t b = 0) {
   return {index, how, a, b};
 }
 
 Expected<void> install_filter() {
-  // All calls without a rule end the process. Among them are calls for sockets, programs, processes
-  // and ptrace.
+  // A call without a rule ends the process. This includes all calls that deal with sockets,
+  // programs, other processes and ptrace.
   const Filter filter(seccomp_init(SCMP_ACT_KILL_PROCESS), seccomp_release);
   if (!filter) return refused("create a system call filter", ENOMEM);
   Rules rules(filter);
@@ -114,7 +115,7 @@ Expected<void> install_filter() {
     rules.allow(call);
   for (const int call : kDenied)
     rules.deny(call, EACCES);
-  // Memory cannot be made executable, and clone can only start threads.
+  // Forbids making memory executable, and using clone for anything but threads.
   rules.allow_if(SCMP_SYS(mmap), argument(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
   rules.allow_if(SCMP_SYS(mprotect), argument(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
   rules.allow_if(SCMP_SYS(clone), argument(0, SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD));
@@ -128,8 +129,8 @@ Expected<void> install_filter() {
 }
 
 // The size in bytes from which a freed block is returned to the system at once. By default, glibc
-// raises this size while the program runs. Freed memory then stays fragmented, which raises the
-// peak by a seventh.
+// raises this size while the program runs. Freed memory would then stay fragmented, which increases
+// the peak by a seventh.
 constexpr int kLargeBlock = 1 << 20;
 
 // Sets a limit. A lower hard limit that the process has inherited stays in force.
@@ -141,8 +142,8 @@ int set_limit(int which, rlim_t soft, rlim_t hard) {
   return ::setrlimit(resource, &limit) == 0 ? 0 : errno;
 }
 
-// Address space cannot be limited under a sanitizer, which reserves terabytes of it for shadow
-// memory.
+// The address space cannot be limited under a sanitizer, because sanitizers reserve terabytes of it
+// for shadow memory.
 #ifdef VITRINE_SANITISED
 constexpr bool kLimitMemory = false;
 #else
@@ -156,8 +157,8 @@ Expected<void> set_limits(const SandboxLimits& limits) {
   };
   if (kLimitMemory) {
     limit(RLIMIT_AS, limits.memory_bytes + spill_capacity());
-    // Without this limit, other memory could use the address space of unmapped parts of the spill
-    // file.
+    // Limits private memory, too. Otherwise private memory could use the address space of unmapped
+    // parts of the spill file.
     limit(RLIMIT_DATA, limits.memory_bytes);
   }
   limit(RLIMIT_CPU, limits.cpu_seconds, 1);  // sends SIGXCPU, and SIGKILL one second later
@@ -199,7 +200,7 @@ Expected<std::vector<std::uint8_t>> run_sandboxed(const SandboxLimits& limits,
   const pid_t child = ::fork();
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // the parent may have died before prctl()
+    if (::getppid() != parent) ::_exit(1);  // the parent may have died before the call of prctl()
     close_all_but(ends[1]);
     answer_and_exit(ends[1], limits, task);
   }

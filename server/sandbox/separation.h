@@ -7,7 +7,8 @@ namespace vitrine::server {
 
 // Moves the calling process into a user namespace and a network namespace of its own, which has no
 // interface except an unused loopback. The process must have one thread. Returns false if the
-// kernel or the service manager does not allow it; then only the seccomp filter blocks the network.
+// kernel or the service manager does not allow this. In that case, only the seccomp filter blocks
+// the network.
 bool leave_network() noexcept;
 
 // Makes the kernel kill the calling process first if the machine or the control group runs out of

@@ -42,7 +42,7 @@ constexpr std::uint64_t kFew = 8;
 constexpr auto kLook = std::chrono::milliseconds(1);
 constexpr std::size_t kLargePage = 2 << 20;
 
-// The spill file and its blocks. A process has at most one, which is never destroyed.
+// The spill file and its blocks. A process has at most one Spill, which is never destroyed.
 class Spill {
  public:
   Spill(const SpillOptions& options, std::byte* base, std::size_t capacity, int statm)
@@ -91,8 +91,8 @@ class Spill {
   }
 
   // Unmaps the pages of mapped files if the process uses too much memory. The pages keep their
-  // content, because the kernel caches or writes them. Pages in use are loaded again at once, so
-  // unmapping a small amount is not worthwhile.
+  // content, because the kernel caches or writes them. Pages in use are soon loaded again, so
+  // unmapping is worthwhile only if it frees much memory.
   void trim() {
     const auto [all, mapped] = resident();
     if (all <= most_resident_ || mapped <= most_resident_ / kFew) return;
@@ -101,7 +101,7 @@ class Spill {
   }
 
   struct Resident {
-    std::uint64_t all = 0, mapped = 0;  // resident bytes: all, and those of mapped files
+    std::uint64_t all = 0, mapped = 0;  // resident bytes: total, and those of mapped files
   };
   Resident resident() const {
     std::array<char, 128> text{};
@@ -136,7 +136,8 @@ class Spill {
   std::int64_t most_held_;
   std::uint64_t most_resident_;
   std::span<const std::uint8_t> input_;
-  // Bytes of the large blocks in memory that were allocated since the spill file was opened.
+  // Total bytes of those large blocks in memory that were allocated after the spill file was
+  // opened.
   std::atomic<std::int64_t> held_ = 0;
   std::mutex mutex_;
   PageRanges ranges_;
@@ -180,7 +181,7 @@ Expected<void> open_spill(const SpillOptions& options) {
   if (capacity == 0 || ::ftruncate(file.get(), static_cast<off_t>(capacity)) != 0) return {};
   void* base = ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
   if (base == MAP_FAILED) return {};
-  // The descriptor stays open until the process ends.
+  // This descriptor stays open until the process ends.
   const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (statm < 0) return refused("/proc", errno);
   spill = new Spill(options, static_cast<std::byte*>(base), capacity, statm);
@@ -255,8 +256,9 @@ void give_back(void* p) noexcept {
 }  // namespace
 }  // namespace vitrine::server
 
-// Replaces all forms of operator new and delete except those with an alignment, whose blocks stay
-// in memory. Every form is defined, because the sanitizers' own forms do not call each other.
+// Replaces all forms of operator new and delete except those with an alignment argument, whose
+// blocks stay in memory. Defines every form separately, because the sanitizers' own forms do not
+// call each other.
 void* operator new(std::size_t size) {
   return vitrine::server::take_or_throw(size);
 }

@@ -14,7 +14,8 @@ namespace vitrine::server {
 // with each failure. Clients that failed at the same time therefore retry at different times.
 struct Backoff {
   int attempts = 5;
-  std::chrono::milliseconds first{100}, longest{3000};  // bound of the first pause; largest bound
+  // upper bound of the first pause, and limit of the upper bound
+  std::chrono::milliseconds first{100}, longest{3000};
   std::function<void(std::chrono::milliseconds)> pause = [](std::chrono::milliseconds time) {
     std::this_thread::sleep_for(time);
   };

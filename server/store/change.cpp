@@ -23,8 +23,8 @@ PublicPart part_of(const StoredFile& stored, std::uint32_t max_level) {
           .textures = summary_of(manifest.texture)};
 }
 
-// Starts the grace period of a model's files. The caller does this before it removes the references
-// to them, because a reader may have read the record but not opened the files yet.
+// Starts the grace period of a model's files. Call this before removing the references to the
+// files, because a reader may have read the record but not opened the files yet.
 Expected<void> let_go(ObjectStore& store, const ModelRecord& record) {
   if (auto begun = store.begin_grace(record.file); !begun || !record.public_part) return begun;
   return store.begin_grace(record.public_part->file);
@@ -54,7 +54,7 @@ Expected<std::optional<FileToStore>> public_part(const ModelRecord& record,
 }
 
 // Stores `pmesh` and its public part, which `record` defines, as the model's files. Updates the
-// catalogue from `before` to `record`. The blocks in the catalogue are those of the public part.
+// catalogue from `before` to `record`. The catalogue gets the blocks of the public part.
 Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const ExclusiveLock& lock,
                            const ModelRecord& before, ModelRecord& record,
                            std::span<const std::uint8_t> pmesh, const PublishAs& as) {
@@ -123,8 +123,8 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
     if (as.state == ModelState::kPublished) record.state = as.state;
     const auto done = store_files(store, catalogue, **lock, **found, record, pmesh, as);
     if (done) return Publication{.id = record.id};
-    // Another caller may change the model by Catalogue::set_state(), which does not need the lock.
-    // The loop then tries again with the new version.
+    // Catalogue::set_state() does not need the lock, so another caller may have changed the model
+    // with it. The loop then tries again with the new version.
     if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
     refused = done.error();
     tried = (*found)->version;

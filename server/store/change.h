@@ -11,20 +11,20 @@ ModelRecord public_view(ModelRecord record);
 
 // Replaces the file of the model `as.id` by `pmesh`. Also replaces the texts that `metadata`
 // contains. The model's other texts and its public level stay. Publishes a draft if `as.state` is
-// kPublished. kState if the model does not exist.
+// kPublished. Fails with kState if the model does not exist.
 Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as);
 
 // Changes a model and returns its new record. Takes the texts, the unit, the accuracy and the
 // max_level of public_part from `wanted`, and ignores its other members. Rewrites the model's files
-// if the unit or the public part changes. kState if another caller has changed the model meanwhile,
-// kLimit if the files exceed `quota`.
+// if the unit or the public part changes. Fails with kState if another caller has changed the model
+// meanwhile, and with kLimit if the files exceed `quota`.
 Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const ModelRecord& wanted,
                              Quota* quota = nullptr);
 
-// Removes a model. kState if the model does not exist, or if `version` is given and is not the
-// model's version.
+// Removes a model. Fails with kState if the model does not exist, or if `version` is given and is
+// not the model's version.
 Expected<void> remove(ObjectStore& store, Catalogue& catalogue, const ModelId& id,
                       std::optional<std::uint64_t> version);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remembers which object files of a store have been checked, so that each is hashed once.
+// Remembers which object files of a store have been checked, so that each file is hashed only once.
 #pragma once
 
 #include <sys/stat.h>
@@ -11,8 +11,7 @@
 
 namespace vitrine::server {
 
-// The identity and the last change of a file. A file that was replaced or written has another
-// stamp.
+// The identity and the last change of a file. If a file is replaced or written, its stamp changes.
 struct FileStamp {
   dev_t device = 0;
   ino_t inode = 0;
@@ -31,8 +30,8 @@ struct FileStamp {
   }
 };
 
-// Thread-safe. Remembers at most kMost files, which takes about 10 MB. Forgets all of them when it
-// is full, so that they are hashed again.
+// Thread-safe. Remembers at most kMost files, which takes about 10 MB. When it is full, forgets all
+// files; they are then hashed again.
 class CheckedObjects {
  public:
   static constexpr std::size_t kMost = 1 << 16;

@@ -16,8 +16,8 @@
 namespace vitrine::server {
 
 // Waits for the lock on an open file and acquires it. The lock is released when the descriptor is
-// closed. It excludes other processes and other descriptors of this process. Returns false and sets
-// errno if the file system refuses.
+// closed. The lock excludes other processes and other descriptors of this process. Returns false
+// and sets errno if the file system refuses.
 inline bool lock_file(int fd) {
   while (::flock(fd, LOCK_EX) != 0) {
     if (errno != EINTR) return false;

@@ -26,8 +26,8 @@ Unexpected refused(const char* what, const fs::path& path, const char* why) {
               fmt::format("cannot {} {}: {}; check the data folder", what, path.string(), why));
 }
 
-// Returns the error for a full disk. The message omits the path, because clients that upload see
-// the message.
+// Returns the error for a full disk. The message does not contain the path, because clients that
+// upload can read the message.
 Unexpected full() {
   return fail(ErrorCode::kLimit,
               fmt::format("cannot store a file: {}; free some space or choose another data folder",
@@ -65,8 +65,9 @@ bool is_temporary(const fs::path& path) {
   return path.filename().string().starts_with('.');
 }
 
-// Whether a sweep removes the file: it is temporary, or it is an object that is not in `keep` and
-// whose grace period has ended. The grace period starts at the file's last modification time.
+// Whether a sweep removes the file: it is a temporary file, or it is an object that is not in
+// `keep` and whose grace period has ended. The grace period starts at the file's last modification
+// time.
 bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono::seconds grace) {
   if (is_temporary(path)) return true;
   Sha256 name{};
@@ -171,8 +172,8 @@ Expected<std::unique_ptr<Object>> FileStore::open_unchecked(const Sha256& name) 
   return object_in(std::move(fd), static_cast<std::uint64_t>(status.st_size));
 }
 
-// Only the first open() of a file reads all of it. A file that was written or replaced since counts
-// as another file.
+// Only the first open() of a file reads and hashes all of it. A file that has been written or
+// replaced since counts as a different file.
 Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
   auto object = open_unchecked(name);
   if (!object || *object == nullptr) return object;
@@ -187,8 +188,8 @@ Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
   return object;
 }
 
-// Asks the kernel to forget its copy of each piece before reading it, so that the bytes come from
-// the disk. The next pieces stay in memory for visitors.
+// Before it reads a piece, asks the kernel to drop its cached copy, so that the bytes come from the
+// disk. Does not drop the following pieces yet, because visitors may need them.
 Expected<ObjectState> FileStore::check(const Sha256& name, const OnPiece& on_piece) const {
   const auto object = open_unchecked(name);
   if (!object) return tl::unexpected(object.error());

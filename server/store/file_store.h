@@ -25,8 +25,8 @@ class FileStore final : public ObjectStore {
   Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const override;
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
 
-  // Opens an object without checking its bytes, for callers that hash the bytes themselves. Null if
-  // the object does not exist.
+  // Opens an object without checking its bytes, for callers that hash the bytes themselves. Returns
+  // null if the object does not exist.
   Expected<std::unique_ptr<Object>> open_unchecked(const Sha256& name) const;
 
  private:

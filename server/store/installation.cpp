@@ -29,15 +29,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNextStep = "give the folder of an installation, or start vitrined with ";
 
-// Whether a folder that is not an installation yet may contain this entry. Such entries are remains
-// of an interrupted start, the demo's scanner, and "lost+found" at the root of a disk.
+// Whether a folder without an installation may contain this entry. Such entries are the remains of
+// an interrupted start, the demo's scanner, and "lost+found" at the root of a disk.
 bool may_come_first(std::string_view name) {
   constexpr std::array<std::string_view, 4> kNames{"objects", kDaemonLock, "demo", "lost+found"};
   return std::ranges::count(kNames, name) > 0;
 }
 
 struct OpenCatalogue {
-  // With PostgreSQL, both are the same object. With SQLite, each has its own connection.
+  // With PostgreSQL, both pointers refer to the same object. With SQLite, each has its own
+  // connection.
   std::shared_ptr<sql::Database> database, jobs;
   TakeLock lock;  // the lock that all users of the store share
 };
@@ -80,7 +81,7 @@ Expected<std::unique_ptr<ObjectStore>> open_store(const InstallationPlace& place
 }  // namespace
 
 Expected<void> check_installation(const fs::path& folder) {
-  std::error_code unknown;  // on an error, continues with the parent folder
+  std::error_code unknown;  // on an error, the loop continues with the parent folder
   fs::path made = folder / kCatalogueFile;
   while (!fs::exists(folder_of(made), unknown) && made != folder_of(made))
     made = folder_of(made);

@@ -17,13 +17,14 @@
 
 namespace vitrine::server {
 
-// Name of a file in the data folder.
+// Names of files in the data folder.
 inline constexpr const char* kCatalogueFile = "catalogue.sqlite";
 inline constexpr const char* kDaemonLock = "daemon.lock";  // locked by a running daemon
 
 struct InstallationPlace {
   std::filesystem::path folder;
-  std::string store = {}, catalogue = {};  // s3://…, postgresql://…; empty: inside `folder`
+  // URLs s3://… and postgresql://…; if one is empty, the data is in `folder`
+  std::string store = {}, catalogue = {};
   std::string access_key = {}, secret_key = {};  // credentials for an s3:// store
 };
 
@@ -43,22 +44,22 @@ Expected<void> check_installation(const std::filesystem::path& folder);
 // Creates the folder if it is missing. Only its owner can enter the new folder. Fails with kIo.
 Expected<void> make_data_folder(const std::filesystem::path& folder);
 
-// Checks that the folder is an installation, or contains only files that may be there before one is
-// created. Otherwise a mistyped name would create an installation that no daemon serves. Fails with
-// kIo.
+// Checks that the folder is an installation, or contains only entries that a folder may have before
+// an installation is created in it. Otherwise a mistyped name would create an installation that no
+// daemon serves. Fails with kIo.
 Expected<void> check_data_folder(const std::filesystem::path& folder);
 
 // Checks the form of the addresses without connecting. Fails with kBadInput.
 Expected<void> check_place(const InstallationPlace& place);
 
 // Reads the whole catalogue and returns its faults, each in one line; empty if there are none. Uses
-// a connection of its own, so others may use the catalogue meanwhile. The catalogue must exist. kIo
-// if it cannot be opened.
+// a connection of its own, so others may use the catalogue meanwhile. The catalogue must exist.
+// Fails with kIo if it cannot be opened.
 Expected<std::vector<std::string>> find_catalogue_faults(const InstallationPlace& place);
 
 // Opens the installation. Creates missing parts, except buckets and databases. Several processes
-// may open the same installation. kBadInput if an address is malformed, kIo if a part cannot be
-// opened.
+// may open the same installation. Fails with kBadInput if an address is malformed, and with kIo if
+// a part cannot be opened.
 Expected<Installation> open_installation(const InstallationPlace& place);
 
 }  // namespace vitrine::server

@@ -24,7 +24,7 @@ class LocalCopy {
   bool append(std::span<const std::uint8_t> bytes);  // returns false on a disk error
   std::optional<Error> fault() const { return fault_; }
 
-  // Returns an object with the received bytes. Null if their SHA-256 differs from `name`.
+  // Returns an object with the received bytes, or null if their SHA-256 differs from `name`.
   Expected<std::unique_ptr<Object>> finish(const Sha256& name) &&;
 
  private:

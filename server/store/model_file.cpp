@@ -10,9 +10,9 @@ namespace {
 
 // Removes the levels finer than `last_level` and their chunks. If there are any, also removes the
 // pictures behind the chunks. Always removes the optional blocks, such as the source's pictures.
-// Positions of merged vertices are rounded down and up in turn, level by level, counted from the
-// finest (FORMAT.md, section 5). So an even number of levels is removed: one more than requested if
-// that number is odd, but never the base.
+// Positions of merged vertices are rounded down and up alternately, level by level, counted from
+// the finest (FORMAT.md, section 5). Therefore removes an even number of levels: if the requested
+// number is odd, removes one level more, but never the base mesh.
 void cut(Manifest& manifest, std::uint32_t last_level) {
   const std::size_t all = manifest.levels.size();
   std::size_t levels = std::min<std::size_t>(last_level + 1ull, all);

@@ -13,15 +13,16 @@
 namespace vitrine::server {
 
 struct HeaderChange {
-  // Removes the levels finer than this one. If their number is odd, removes this level, too, unless
-  // it is the base. If a level is removed, also removes the pictures that are not in the head: they
-  // show more detail than the coarse levels have. Nullopt keeps everything.
+  // Removes the levels finer than this one. If the number of removed levels would be odd, removes
+  // this level, too, unless it is the base mesh. If any level is removed, also removes the pictures
+  // that are not in the head, because they show more detail than the remaining levels have. Nullopt
+  // keeps all levels and pictures.
   std::optional<std::uint32_t> last_level;
   std::optional<std::string> unit;
 };
 
 // Returns the bytes of `pmesh` with the changed header, without the removed chunks and pictures.
-// kBadInput if the header is damaged or a chunk is missing.
+// Fails with kBadInput if the header is damaged or a chunk is missing.
 Expected<std::vector<std::uint8_t>> with_header(std::span<const std::uint8_t> pmesh,
                                                 const HeaderChange& change);
 

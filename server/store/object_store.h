@@ -26,11 +26,12 @@ class Object {
 
   virtual std::uint64_t size() const = 0;
 
-  // Fills `out` with the bytes from `offset` on. kIo if they extend beyond the object's end.
+  // Fills `out` with the bytes from `offset` on. Fails with kIo if they extend beyond the object's
+  // end.
   virtual Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const = 0;
 
-  // Returns a descriptor for sendfile(2), owned by the object, or nullopt if the object is not in a
-  // file. The descriptor's file position is shared, so give sendfile an explicit offset.
+  // Returns a descriptor for sendfile(2), which the object owns, or nullopt if the object is not in
+  // a file. All users share the descriptor's file position, so pass an explicit offset to sendfile.
   virtual std::optional<int> descriptor() const { return std::nullopt; }
 
   Expected<std::vector<std::uint8_t>> read(std::uint64_t offset, std::uint64_t length) const;
@@ -48,41 +49,41 @@ class ObjectStore {
   virtual ~ObjectStore() = default;
 
   // Stores `bytes` durably as the object `name`, completely or not at all. Returns true if the
-  // object was written, false if it existed undamaged. Replaces a damaged object. kBadInput if
-  // `name` is not the SHA-256 of the bytes, kLimit if the disk is full, kIo if the store fails
-  // otherwise.
+  // object was written, false if it existed undamaged. Replaces a damaged object. Fails with
+  // kBadInput if `name` is not the SHA-256 of the bytes, with kLimit if the disk is full, and with
+  // kIo if the store fails for another reason.
   virtual Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
 
   // Acquires the store's lock, which only one process holds at a time. A caller must hold the lock
   // while it stores an object and adds a reference to the catalogue, or while it removes an object.
-  // The lock may be lost, so the caller checks it before each step.
+  // The lock may be lost, so the caller must check it before each step.
   virtual Expected<std::shared_ptr<const ExclusiveLock>> lock() = 0;
 
   // Removes the object, if it exists. Fails with kIo.
   virtual Expected<void> remove(const Sha256& name) = 0;
 
-  // Starts the object's grace period again, if the object exists. The caller does this before it
-  // removes a reference to the object, because a client may be about to read the object. The caller
-  // holds the lock. Fails with kIo.
+  // If the object exists, starts its grace period again. The caller must do this before it removes
+  // a reference to the object, because a client may be about to read the object. The caller must
+  // hold the lock. Fails with kIo.
   virtual Expected<void> begin_grace(const Sha256& name) = 0;
 
   // Removes remains of interrupted puts, and unreferenced objects whose grace period has ended.
   // Objects in `keep` are referenced. The grace period counts from put() or begin_grace(). Returns
-  // the number of objects removed. The caller holds the lock. kIo if the store fails; some objects
-  // may have been removed before.
+  // the number of objects removed. The caller holds the lock. Fails with kIo if the store fails;
+  // some objects may have been removed before.
   virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                       const ExclusiveLock& lock) = 0;
 
-  // Opens an object; null if it does not exist. Checks its SHA-256 if this process has not checked
-  // it before, which reads the whole object. kState if the object is damaged, kIo if the store
-  // fails.
+  // Opens an object. Returns null if it does not exist. If this process has not checked the
+  // object's SHA-256 before, reads the whole object to check it. Fails with kState if the object is
+  // damaged, and with kIo if the store fails.
   virtual Expected<std::unique_ptr<Object>> open(const Sha256& name) const = 0;
 
   // Reads the whole object from the disk or the bucket and checks its SHA-256, even if it was
-  // checked before. kIo if the store fails or `on_piece` returned false.
+  // checked before. Fails with kIo if the store fails or `on_piece` returned false.
   virtual Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const = 0;
 
-  // Returns the size of an object without opening it; nullopt if the object does not exist.
+  // Returns the size of an object without opening it, or nullopt if the object does not exist.
   virtual Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const = 0;
 };
 

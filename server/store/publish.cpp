@@ -42,8 +42,8 @@ Expected<void> check_paragraphs(const char* name, const std::string& text) {
               std::string("the ") + name + " is not UTF-8 of at most 16,384 bytes; give another");
 }
 
-// Returns the model with this ID, or else a published model with the same file and texts, which
-// need not be published again. Drafts are always added as new models.
+// Returns the model with this ID, or otherwise a published model with the same file and texts, so
+// that it is not published twice. Drafts are always added as new models.
 Expected<std::optional<ModelRecord>> find_earlier(Catalogue& catalogue, const ModelRecord& record) {
   auto same = catalogue.find(record.id);
   if (!same || *same || record.state == ModelState::kDraft) return same;
@@ -56,8 +56,8 @@ Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record, const
   const auto same = find_earlier(catalogue, record);
   if (!same) return tl::unexpected(same.error());
   if (*same) {
-    // If the file was lost or damaged, setting the state again changes the revision, so that
-    // readers reopen the repaired file.
+    // If the file was lost or damaged before, sets the model's state again. This changes the
+    // revision, so that readers reopen the repaired file.
     const bool is_mended = stored.is_new || stored.is_repaired;
     const auto told =
         is_mended ? catalogue.set_state((*same)->id, (*same)->state) : Expected<void>{};
@@ -100,8 +100,8 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   if (auto stored = store_file(store, *file, pmesh); !stored) return tl::unexpected(stored.error());
   if (auto held = (*lock)->check(); !held) return tl::unexpected(held.error());
   auto published = add(catalogue, record, *file, as.by);
-  // Even after the error kIo, the catalogue may contain the reference to the file, so the file must
-  // stay.
+  // If adding the model failed with kIo, the catalogue may nevertheless refer to the file, so the
+  // file must stay.
   const bool is_unnamed = !published && published.error().code != ErrorCode::kIo;
   if (is_unnamed && file->is_new && (*lock)->check()) static_cast<void>(store.remove(file->name));
   return published;

@@ -46,7 +46,8 @@ struct Publication {
 // the base and of every chunk. Then adds the model to the catalogue in one transaction. A failure
 // leaves nothing in the store; a crash leaves at most an unreferenced object. If the same bytes are
 // already published with the same texts, returns that model and repairs its file if it is lost or
-// damaged. kBadInput if the file is damaged, kLimit if the disk is full or the quota is exhausted.
+// damaged. Fails with kBadInput if the file is damaged, and with kLimit if the disk is full or the
+// quota is exhausted.
 Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as = {});

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMaxOpenModels = 256;  // limit on cached models; each keeps a file open
 // How long cached models are served while the catalogue is unreachable.
 constexpr std::chrono::minutes kUnreachableFor{15};
-// A catalogue that takes longer to respond counts as unreachable.
+// If the catalogue takes longer to respond, it counts as unreachable.
 constexpr std::chrono::milliseconds kResponseTime{250};
 
 Unexpected damaged_file(const ModelRecord& record, std::string_view why) {
@@ -71,7 +71,8 @@ std::size_t first_word(const Value& value) {
   return word;
 }
 
-// Returns the whole record, or its public view. Nullopt if the public view of a draft is requested.
+// Returns the whole record if `is_whole`, otherwise its public view. Returns nullopt if the public
+// view of a draft is requested.
 std::optional<ModelRecord> shown(ModelRecord record, bool is_whole) {
   if (is_whole) return record;
   if (record.state != ModelState::kPublished) return std::nullopt;
@@ -121,7 +122,8 @@ std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const 
 }
 
 std::size_t PublishedModels::HashOfScope::operator()(const Scope& scope) const noexcept {
-  std::array<std::uint8_t, 8> random;  // the ID's last bytes; its first bytes encode a time
+  // the last bytes of the ID, because its first bytes encode a time
+  std::array<std::uint8_t, 8> random;
   std::copy(scope.id.bytes().begin() + 8, scope.id.bytes().end(), random.begin());
   return first_word(random) + (scope.is_whole ? 1 : 0);
 }
@@ -200,8 +202,8 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   }
   if (*revision == revision_) return {};
   revision_ = *revision;
-  // A model that was opened during the check may be older than the new revision, so it is dropped,
-  // too.
+  // Also drops a model that was opened during the check, because it may be older than the new
+  // revision.
   for (auto it = models_.begin(); it != models_.end();)
     it = std::ranges::count(*kept, it->second.model.get()) > 0 ? std::next(it) : drop(it);
   return {};
@@ -237,7 +239,7 @@ Expected<PublishedModels::ModelPointer> PublishedModels::load(const Scope& scope
   misses.fetch_add(1, std::memory_order_relaxed);
   try {
     own->promise.set_value(open(scope));
-  } catch (...) {  // out of memory: all waiting callers fail
+  } catch (...) {  // for example std::bad_alloc; all waiting callers fail
     own->promise.set_exception(std::current_exception());
   }
   const std::unique_lock lock(mutex_);
@@ -256,8 +258,8 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open(const Scope& scope
 
 // Opens the newest version of a model. `revision` is the catalogue's revision before this call.
 // Returns null if the scope does not include the model. If the file is missing, the model may have
-// been replaced and its old file removed. So this function looks up the record again, and fails
-// only if its version is still the same.
+// been replaced and its old file removed. Therefore looks up the record again, and fails only if
+// its version is still the same.
 Expected<PublishedModels::ModelPointer> PublishedModels::open_newest(const Scope& scope,
                                                                      std::uint64_t revision) {
   for (std::optional<std::uint64_t> failed;;) {
@@ -278,8 +280,9 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open_newest(const Scope
   }
 }
 
-// Opens the file of `record`. Fails if the file is known to be damaged at `revision`, which is the
-// catalogue's. The cache's revision_ may be older, and the file may have been repaired since.
+// Opens the file of `record`. Fails if the file is known to be damaged at `revision`, the
+// catalogue's current revision. The cache's revision_ may be older, and the file may have been
+// repaired since then.
 Expected<PublishedModels::ModelPointer> PublishedModels::open_file(ModelRecord record,
                                                                    std::uint64_t revision) {
   const Sha256 file = record.file;
@@ -329,7 +332,7 @@ void PublishedModels::remember(const Scope& scope, const ModelPointer& model,
   const std::uint64_t bytes = memory_of(model->manifest());
   const std::unique_lock lock(mutex_);
   if (revision != revision_) return;  // the model may have changed meanwhile
-  // Another caller has found meanwhile that the file is damaged.
+  // In the meantime, another caller has found that the file is damaged.
   if (is_known_damaged(model->record().file, revision)) return;
   if (bytes > max_bytes_ || models_.contains(scope)) return;
   model->asked_ = Clock::now().time_since_epoch().count();
@@ -461,7 +464,8 @@ Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {
   if (!*location) return PublishedChunk{};
   const auto model = load({(*location)->model});
   if (!model) return tl::unexpected(model.error());
-  // The model may have a new file by now, so the position comes from the manifest of that file.
+  // The model may have a new file by now, so the position is looked up in the manifest of that
+  // file.
   const auto range = *model ? (*model)->find(sha256) : std::nullopt;
   return range ? PublishedChunk{*model, *range} : PublishedChunk{};
 }

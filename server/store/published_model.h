@@ -30,16 +30,16 @@ struct Document {
   std::vector<std::uint8_t> gzip;  // `text` as a gzip file; empty if it is not compressed
 };
 
-// Returns a hash of the base mesh and all chunks. Files with the same hash decode to the same
-// levels, even if their units differ. A file without its finest levels has another hash.
+// Returns a hash of the base mesh and all chunks. Two files with the same hash decode to the same
+// levels, even if their units differ. Removing the finest levels from a file changes the hash.
 Sha256 geometry_hash(const Manifest& manifest);
 
 // A model that is open for reading. Immutable. Keeps its file open as long as it exists, so hold
 // the shared pointer while bytes are being sent.
 class PublishedModel {
  public:
-  // Opens the file of `record`. kState if the object is missing or damaged, or does not match the
-  // record.
+  // Opens the file of `record`. Fails with kState if the object is missing or damaged, or does not
+  // match the record.
   static Expected<std::shared_ptr<const PublishedModel>> open(const ObjectStore& store,
                                                               ModelRecord record);
 
@@ -59,8 +59,8 @@ class PublishedModel {
     return file_->read(range.offset, range.length);
   }
 
-  // Returns the manifest as JSON for the API; null before PublishedModels::keep_manifest().
-  // Thread-safe.
+  // Returns the manifest as JSON for the API, or null if PublishedModels::keep_manifest() has not
+  // been called yet. Thread-safe.
   std::shared_ptr<const Document> kept_manifest() const { return std::atomic_load(&told_); }
 
  private:
@@ -80,11 +80,11 @@ struct PublishedChunk {
   ByteRange range;
 };
 
-// A cache of the models of an installation. The first request for a model opens it; concurrent
-// requests wait. Keeps manifests and their JSON in at most `max_bytes` of memory, and drops the
-// least recently used first. Thread-safe. Finds a model as soon as another process has published
-// it. Notices changes by other processes to cached models within `staleness`. While the catalogue
-// is unreachable, serves cached models for up to 15 minutes.
+// A cache of the models of an installation. The first request for a model opens the model;
+// concurrent requests wait for it. Keeps manifests and their JSON in at most `max_bytes` of memory,
+// and drops the least recently used models first. Thread-safe. Finds a model as soon as another
+// process has published it. Notices changes by other processes to cached models within `staleness`.
+// While the catalogue is unreachable, serves cached models for up to 15 minutes.
 class PublishedModels {
  public:
   PublishedModels(const ObjectStore& store, Catalogue& catalogue,
@@ -101,11 +101,11 @@ class PublishedModels {
   using Post = std::function<void(std::function<void()> task)>;
   void refresh_by(Post post) { post_ = std::move(post); }
 
-  // Returns the public part of a model. Null if the model does not exist or is a draft.
+  // Returns the public part of a model, or null if the model does not exist or is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
-  // Returns the whole model, even if it is a draft, for callers with a token. Null if the model
-  // does not exist.
+  // Returns the whole model, even if it is a draft, or null if the model does not exist. Only for
+  // callers with a token.
   Expected<std::shared_ptr<const PublishedModel>> find_whole(const ModelId& id);
 
   // Makes the next call check the catalogue. Call this after this process has changed the
@@ -129,8 +129,9 @@ class PublishedModels {
   // Returns the block with this SHA-256 (file_blocks.h), if any published model has it.
   Expected<PublishedChunk> find_chunk(const Sha256& sha256);
 
-  // Reports that a stored file is damaged or missing. No model is served from it until it is found
-  // intact, or until it opens without a fault after a change of the catalogue.
+  // Reports that a stored file is damaged or missing. Models are not served from this file until
+  // set_intact() is called, or until the file opens without a fault after a change of the
+  // catalogue.
   void set_damaged(const Sha256& file);
   void set_intact(const Sha256& file);
   std::vector<Sha256> damaged();  // the files that are known to be damaged or missing
@@ -158,8 +159,8 @@ class PublishedModels {
     std::uint64_t bytes = 0;
   };
   using CachedModels = std::unordered_map<Scope, CachedModel, HashOfScope>;
-  // A model that is being opened. A caller that knows of a later revision or refresh() must not use
-  // the result.
+  // A model that is being opened. Its result is outdated for a caller that knows of a later
+  // revision or refresh().
   struct Opening {
     std::uint64_t revision, refreshed;
     std::promise<Expected<ModelPointer>> promise = {};

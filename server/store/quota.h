@@ -14,13 +14,13 @@
 
 namespace vitrine::server {
 
-// These functions write and read the limit in the data folder, in bytes, so that programs that
-// publish without the daemon know it, too. 0 means no limit. Both fail with kIo.
+// Write and read the limit in bytes in a file of the data folder, so that programs that publish
+// without the daemon know the limit, too. 0 means no limit. Both functions fail with kIo.
 Expected<void> write_quota(const std::filesystem::path& folder, std::uint64_t bytes);
 Expected<std::uint64_t> read_quota(const std::filesystem::path& folder);
 
-// The limit on the disk space of an installation. Thread-safe. Errors: kLimit if something does not
-// fit, kIo if the catalogue or the disk fails.
+// The limit on the disk space of an installation. Thread-safe. Functions fail with kLimit if there
+// is not enough space, and with kIo if the catalogue or the disk fails.
 class Quota {
  public:
   // Space that is reserved until this object is destroyed.
@@ -40,12 +40,12 @@ class Quota {
     std::uint64_t bytes_ = 0;
   };
 
-  // `bytes`: 0 for no limit.
+  // `bytes` is the limit in bytes; 0 means no limit.
   Quota(Catalogue& catalogue, const Uploads& uploads, std::uint64_t bytes)
       : catalogue_(catalogue), uploads_(uploads), bytes_(bytes) {}
 
-  // `take` creates an upload of `bytes` bytes. Calls it if these bytes fit beside the models' files
-  // and the other uploads. Admits one caller at a time.
+  // Calls `take`, which creates an upload of `bytes` bytes, if there is enough space beside the
+  // models' files and the other uploads. Admits one caller at a time.
   Expected<void> admit(std::uint64_t bytes, const std::function<void()>& take);
 
   // Reserves space for the files of a new model. Files that another model already has need no
@@ -54,7 +54,7 @@ class Quota {
   Expected<Reservation> reserve(std::span<const NamedFile> files,
                                 const std::optional<UploadId>& spent);
 
-  // Reserves space in `quota` as above. Returns an empty reservation if `quota` is null.
+  // Like reserve() above, for `quota`. Returns an empty reservation if `quota` is null.
   static Expected<Reservation> reserve(Quota* quota, std::span<const NamedFile> files,
                                        const std::optional<UploadId>& spent) {
     return quota == nullptr ? Reservation() : quota->reserve(files, spent);

@@ -17,8 +17,8 @@ struct S3Address {
   bool is_virtual = false;  // whether the bucket is in the host name, not in the path
 
   // Parses an address. Without an endpoint, the server is Amazon's. The default of `style` is
-  // `path` with an endpoint and `virtual` without. kBadInput with the fault if the address is
-  // malformed.
+  // `path` with an endpoint and `virtual` without. Fails with kBadInput and a description of the
+  // fault if the address is malformed.
   static Expected<S3Address> parse(std::string_view text);
 
   // Returns the URL of the object with that key, or of the bucket if `key` is empty. The key must

@@ -13,7 +13,7 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kTimeout{5};
-// After a request gets no response, failed requests are not retried for this long.
+// If a request gets no response, failed requests are not retried for this time.
 constexpr std::chrono::seconds kUnreachable{2};
 
 // Whether another attempt may succeed, because the store is busy (SlowDown) or restarting, or

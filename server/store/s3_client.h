@@ -31,8 +31,8 @@ struct S3Request {
   std::span<const std::uint8_t> body = {};
   Sha256 body_sha256 = sha256({});  // SHA-256 of the body; the store checks it
   // `take` receives the body of a 2xx response in parts. `restart` is called before each attempt,
-  // so that the caller can drop the parts of a failed one. `take` returns false to cancel the
-  // request, which is then not retried.
+  // so that the caller can drop the parts received in a failed attempt. `take` returns false to
+  // cancel the request, which is then not retried.
   std::function<bool(std::span<const std::uint8_t>)> take = {};
   std::function<void()> restart = {};
 };
@@ -47,9 +47,9 @@ class S3Client {
 
   const S3Address& address() const { return address_; }
 
-  // Sends a request, with retries. Returns the last response; kIo if no attempt got a response.
-  // Later requests that fail are then not retried for a moment, because visitors must not wait for
-  // an unreachable store.
+  // Sends a request, with retries, and returns the last response. Fails with kIo if no attempt got
+  // a response. For a short time after that, failed requests are not retried, because visitors must
+  // not wait for an unreachable store.
   Expected<RemoteAnswer> ask(const S3Request& request);
 
   // Returns a kIo error that states the refused action, the cause and the next step.

@@ -77,7 +77,7 @@ Expected<bool> S3Store::put(const Sha256& name, std::span<const std::uint8_t> by
   const auto before = size_of(name);
   if (!before) return tl::unexpected(before.error());
   if (*before == bytes.size()) {
-    const auto held = open(name);  // null or an error if the object is damaged
+    const auto held = open(name);  // null or an error if the object is missing or damaged
     if (held && *held != nullptr) {
       auto begun = begin_grace(name);
       return begun ? Expected<bool>(false) : tl::unexpected(begun.error());
@@ -133,7 +133,8 @@ Expected<void> S3Store::give_up_uploads(std::int64_t begun_before) {
   return {};
 }
 
-// Lists the grace marks after the objects, so that no mark set during the first listing is missed.
+// Lists the grace marks after the objects, so that it sees the marks set while the objects were
+// listed.
 Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                      const ExclusiveLock& lock) {
   const auto objects = list(kObjects);
@@ -159,7 +160,7 @@ Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::
   return swept;
 }
 
-// Downloads the object. If it arrives damaged, downloads it once more.
+// Downloads the object. If the received bytes are damaged, downloads the object once more.
 Expected<std::unique_ptr<Object>> S3Store::open(const Sha256& name) const {
   for (int attempt = 0; attempt < 2; ++attempt) {
     auto copy = LocalCopy::create(options_.copies);
@@ -179,8 +180,8 @@ Expected<std::unique_ptr<Object>> S3Store::open(const Sha256& name) const {
                           to_hex(name), client_.address().bucket));
 }
 
-// Hashes the bytes while they arrive and keeps no copy. If they arrive damaged, downloads them once
-// more.
+// Hashes the bytes as they arrive, without keeping a copy. If the received bytes are damaged,
+// downloads them once more.
 Expected<ObjectState> S3Store::check(const Sha256& name, const OnPiece& on_piece) const {
   for (int attempt = 0; attempt < 2; ++attempt) {
     Sha256Hasher hasher;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The object store in a bucket of an S3-compatible server. The object with the name abcd… has the
-// key PREFIX/objects/abcd…. An empty object PREFIX/grace/abcd… marks that the grace period started
-// again when the mark was written. An open object is a local copy with a verified SHA-256, so that
-// the bucket is read only once.
+// key PREFIX/objects/abcd…. An empty object PREFIX/grace/abcd… is a mark: the object's grace period
+// started again when the mark was written. An open object is a local copy with a verified SHA-256,
+// so that the bucket is read only once.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct S3Options {
   S3Address address;
   S3Keys keys;
   std::filesystem::path copies;  // the folder for local copies
-  TakeLock lock;                 // acquires the store's lock, since S3 has no locks
+  TakeLock lock;                 // acquires the store's lock, because S3 itself has no locks
   std::uint64_t part_bytes = 64 << 20;
   Backoff backoff = {};
 };

@@ -83,8 +83,8 @@ Expected<void> s3_upload(S3Client& client, const std::string& key,
     const auto upload = begin(client, key);
     if (!upload) return tl::unexpected(upload.error());
     auto done = put_parts(client, key, *upload, bytes, part_bytes);
-    // Ignores an error of the abort, because the first error is the one to report. A sweep removes
-    // the remains.
+    // Ignores an error of the abort, because the first error is the one to report. A later sweep
+    // removes the remains of the upload.
     if (!done) static_cast<void>(s3_give_up(client, key, *upload));
     return done;
   }

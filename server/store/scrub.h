@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that the store has every file that the catalogue names, and that each is intact.
+// Checks that the store has every file that the catalogue names, and that each file is intact.
 #pragma once
 
 #include <functional>
@@ -11,15 +11,15 @@
 
 namespace vitrine::server {
 
-// Returns each file that a model refers to once, ordered by SHA-256, with one of its models. Fails
-// with kIo.
+// Returns every file that a model refers to, ordered by SHA-256. Lists each file once, with one of
+// its models. Fails with kIo.
 Expected<std::vector<NamedFile>> distinct_files(Catalogue& catalogue);
 
 // Called after each file with its state.
 using OnObject = std::function<void(const NamedFile& file, ObjectState state)>;
 
-// Checks the files one after the other by ObjectStore::check(). kIo if the store fails or
-// `on_piece` returned false.
+// Checks the files one after the other by ObjectStore::check(). Fails with kIo if the store fails
+// or `on_piece` returned false.
 Expected<void> scrub(const ObjectStore& store, std::span<const NamedFile> files,
                      const OnPiece& on_piece, const OnObject& on_object);
 

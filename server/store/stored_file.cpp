@@ -59,8 +59,8 @@ Expected<void> store_file(ObjectStore& store, StoredFile& file,
   file.is_new = !*before;
   file.is_repaired = *written && !file.is_new;
   auto checked = check_stored(store, file);
-  // Ignores an error of the removal, because the check's error is the one to report. The removal
-  // works even on a full disk.
+  // Ignores an error of the removal, because the check's error is the one to report. Removing the
+  // object is possible even if the disk is full.
   if (!checked && file.is_new) static_cast<void>(store.remove(file.name));
   return checked;
 }

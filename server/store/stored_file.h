@@ -17,8 +17,8 @@ struct StoredFile {
   std::vector<ChunkPlace> blocks() const;  // positions of all blocks of the file
 };
 
-// Returns the description of a file that will be stored. kBadInput if its header or its length is
-// wrong.
+// Returns the description of a file that will be stored. Fails with kBadInput if its header or its
+// length is wrong.
 Expected<StoredFile> to_be_stored(std::span<const std::uint8_t> pmesh);
 
 // Stores the bytes `pmesh`, which `file` describes, and sets `is_new` and `is_repaired`. Reads the

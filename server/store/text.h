@@ -21,7 +21,7 @@ inline constexpr std::size_t kMaxLineBytes = 4096, kMaxParagraphBytes = 16'384;
 
 // Whether `text` is a line that may be shown: plain text of at most kMaxLineBytes.
 bool is_line(std::string_view text) noexcept;
-// Whether `text` is plain text but for line feeds, and has at most kMaxParagraphBytes.
+// Whether `text` is plain text, apart from line feeds, and has at most kMaxParagraphBytes.
 bool is_paragraphs(std::string_view text) noexcept;
 
 }  // namespace vitrine::server

@@ -68,8 +68,8 @@ Uploading<void> write_all(int fd, std::span<const std::uint8_t> bytes, std::uint
   return {};
 }
 
-// Returns the fault for the errno of a failed attempt to open or read an upload. Only a missing
-// file means that the upload does not exist.
+// Returns the fault for `error`, the errno of a failed attempt to open or read an upload. Only
+// ENOENT means that the upload does not exist.
 tl::unexpected<UploadFault> not_read(int error) {
   return error == ENOENT ? gone() : refused("read", error);
 }
@@ -112,7 +112,7 @@ Uploading<void> UploadWriter::take_back() {
   const ScopedLock lock(file_.get());
   const auto size = size_of(file_.get());
   if (!lock.is_held() || !size) return refused("shorten", errno);
-  // If the size differs, another writer has continued behind these bytes.
+  // If the size differs, another writer has appended bytes after those of this writer.
   if (*size != offset_) return {};
   if (::ftruncate(file_.get(), static_cast<off_t>(start_)) != 0) return refused("shorten", errno);
   offset_ = start_;
@@ -219,8 +219,8 @@ Uploading<Upload> Uploads::read(const UploadId& id) const {
   return upload;
 }
 
-// Syncs the bytes first, because a daemon that crashed may have left bytes that are not on the
-// disk. The client that receives this offset will not send them again.
+// Syncs the bytes before returning their number, because a daemon that crashed may have left bytes
+// that are not on the disk yet. A client that receives this offset does not send these bytes again.
 Uploading<Upload> Uploads::find(const UploadId& id) const {
   auto upload = read(id);
   if (!upload) return upload;
@@ -250,7 +250,7 @@ Uploading<FileDescriptor> Uploads::open(const UploadId& id) const {
   return bytes;
 }
 
-// Removes the description first. An upload without a description does not exist.
+// Removes the description first, because an upload without a description counts as non-existent.
 Uploading<void> Uploads::remove(const UploadId& id) {
   if (::unlink(path_of(id, kAbout).c_str()) != 0) {
     if (errno == ENOENT) return gone();

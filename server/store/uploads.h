@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Resumable uploads, which survive crashes. DATA/uploads/ID.json describes an upload, and ID.part
-// contains the bytes received. The upload's offset is the length of ID.part, because file systems
-// extend a file only after its bytes are written.
+// contains the bytes received. The upload's offset is the length of ID.part. This is safe, because
+// file systems extend a file only after its bytes are written.
 #pragma once
 
 #include <chrono>
@@ -22,10 +22,11 @@ namespace vitrine::server {
 struct Upload {
   UploadId id;
   TokenId token;  // ID of the owner's token
-  // Bytes in total. If the client has not stated its length yet, the largest size of an upload.
+  // Total size in bytes. Until the client has stated it, this is the largest allowed size of an
+  // upload.
   std::uint64_t length = 0;
   bool is_length_known = true;
-  std::uint64_t offset = 0;  // bytes received
+  std::uint64_t offset = 0;  // number of bytes received
   std::string metadata;      // printable ASCII, as the client sent it
   std::int64_t expires = 0;  // milliseconds since 1970, UTC; extended by each part received
 
@@ -91,22 +92,23 @@ class Uploads {
   // smaller than the offset, and with kMoved if another length is known already.
   Uploading<void> state_length(const UploadId& id, std::uint64_t length);
 
-  // Returns an upload; kGone if it does not exist. The bytes before its offset are on the disk.
+  // Returns an upload whose bytes before the offset are on the disk. Fails with kGone if it does
+  // not exist.
   Uploading<Upload> find(const UploadId& id) const;
-  // Returns a writer that appends at `offset`. kGone if the upload does not exist, kMoved if its
-  // offset is a different one.
+  // Returns a writer that appends at `offset`. Fails with kGone if the upload does not exist, and
+  // with kMoved if the upload's offset is a different one.
   Uploading<UploadWriter> writer(const UploadId& id, std::uint64_t offset) const;
 
-  // Opens the file of a complete upload. kGone if the upload does not exist or is incomplete, kIo
-  // if the file cannot be opened.
+  // Opens the file of a complete upload. Fails with kGone if the upload does not exist or is
+  // incomplete, and with kIo if the file cannot be opened.
   Uploading<FileDescriptor> open(const UploadId& id) const;
 
   Uploading<void> remove(const UploadId& id);  // fails with kGone if the upload does not exist
 
   Uploading<std::vector<Upload>> list() const;
 
-  // Acquires the lock on the use of uploads. A caller holds it from the check of an upload until
-  // the upload is used or removed.
+  // Acquires the lock on the use of uploads. A caller holds the lock from its check of an upload
+  // until it has used or removed the upload.
   std::unique_lock<std::mutex> hold() { return std::unique_lock(use_); }
 
   // Removes uploads that expired before `now`, and remains of interrupted calls. Keeps uploads in

@@ -31,7 +31,8 @@ bool read_number(const Json& json, const char* name, double& out) {
   return true;
 }
 
-// Returns the number of the model in a message: 0 if it is not given, nullopt if it is invalid.
+// Returns the number of the model in a message. Returns 0 if the message states no model, and
+// nullopt if the number is invalid.
 std::optional<std::uint16_t> model_of(const Json& json) {
   const auto member = json.find("model");
   if (member == json.end()) return std::uint16_t{0};
@@ -215,7 +216,8 @@ OrderedJson json_of(const AckMessage& message) {
 }  // namespace
 
 Expected<ClientMessage> parse_message(std::string_view text) {
-  // Deeper values are dropped while the text is parsed, so that nesting cannot exhaust the stack.
+  // Drops values that are nested too deeply while it parses the text, so that nesting cannot
+  // exhaust the stack.
   const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < kMaxDepth; };
   const Json json = Json::parse(text, shallow, /*allow_exceptions=*/false);
   if (!json.is_object()) return malformed("a message is a JSON object");

@@ -28,7 +28,7 @@ struct WantSeconds {
 using DetailTarget = std::variant<Want, WantSeconds>;
 
 struct ChunkRange {
-  std::uint64_t first = 0, last = 0;  // inclusive, first <= last
+  std::uint64_t first = 0, last = 0;  // both ends are included; first <= last
 };
 
 // Asks the server to open a model. `model` is the number that the model gets in this connection,

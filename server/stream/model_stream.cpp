@@ -10,7 +10,8 @@ namespace {
 // How late a chunk may arrive, as a share of the requested seconds.
 constexpr double kMostLate = 0.05;
 constexpr double kNews = 0.2;  // share by which the rate must change before a new promise is sent
-// Share of the remaining time that a promise plans to use, as the link may slow down.
+// Share of the remaining time that a promise plans to use. It is below 1, because the link may slow
+// down.
 constexpr double kCareful = 0.9;
 constexpr Pacer::Duration kBetweenPromises{0.2};
 
@@ -69,8 +70,9 @@ std::uint64_t ModelStream::left_of(std::size_t chunk) const {
   return part == interrupted_.end() ? length : length - part->offset;
 }
 
-// Whether to send one more chunk. True if all bytes, with this chunk, arrive by the deadline. Also
-// true if they arrive a little late, but closer to the deadline than without the chunk.
+// Whether to send one more chunk. Returns true if all bytes, including this chunk, arrive by the
+// deadline. Also returns true if they arrive a little late, but closer to the deadline than without
+// this chunk.
 bool ModelStream::is_in_time(Ends ends, Pacer::Time now) const {
   const double left = (timed_->deadline - now).count();
   const double late = ends.with - left, early = left - ends.without;
@@ -100,7 +102,7 @@ StreamOutput ModelStream::next(std::uint32_t most, const Share& share, Pacer::Ti
   if (head_) return head_slice(most);
   if (!is_open_) return {};
   if (!under_way_ && !choose(share, now)) {
-    // A link that is full or stalled now may still deliver more in time, so the request stays open.
+    // If the link is full or stalled, it may recover in time, so the request stays open.
     if (most == 0 && timed_ && now < timed_->deadline && planner().next()) return {};
     is_open_ = false;
     return DoneMessage{number_, turn_, planner().bytes_held(), planner().faces_held()};
@@ -128,7 +130,7 @@ StreamOutput ModelStream::chunk_slice(std::uint32_t most) {
       static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.length - offset));
   if (length == 0) {
     if (timed_ && !is_within_chunk())
-      under_way_.reset();  // choose again later, as this chunk may then arrive too late
+      under_way_.reset();  // the chunk is chosen again later, because it may then arrive too late
     return {};
   }
   under_way_->offset += length;
@@ -162,8 +164,8 @@ std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time 
   return promise;
 }
 
-// Returns the promise for the current rate, by a simulation of next(). Promises no chunk that might
-// arrive late.
+// Computes the promise for the current rate by simulating next(). Counts no chunk that might arrive
+// late.
 PromiseMessage ModelStream::forecast(const Share& share, Pacer::Time now) const {
   const double rate = share.pacer.rate(now), left = (timed_->deadline - now).count();
   std::uint64_t bytes = head_ ? manifest_->head_bytes() - head_sent_ : 0;

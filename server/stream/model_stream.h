@@ -18,10 +18,11 @@ namespace vitrine::server {
 
 using StreamOutput = std::variant<std::monostate, Slice, PromiseMessage, DoneMessage>;
 
-// The connection as one model sees it. All models that have something to send get equal shares.
+// The connection from the viewpoint of one model. All models that have something to send get equal
+// shares.
 struct Share {
   const Pacer& pacer;
-  std::size_t sharers = 1;  // models that have something to send, this one included
+  std::size_t sharers = 1;  // number of models that have something to send, including this one
 
   // Returns the seconds until all bytes in flight, and then `bytes` of this model, have arrived.
   // `rate` is the connection's rate in bytes per second.
@@ -66,7 +67,7 @@ class ModelStream {
     std::optional<PromiseMessage> promise;  // the last promise sent
     Pacer::Time promised{};
   };
-  // Seconds until everything has arrived: without and with one more chunk.
+  // Seconds until all bytes in flight have arrived: without one more chunk, and with it.
   struct Ends {
     double without, with;
   };
@@ -92,7 +93,8 @@ class ModelStream {
   bool is_paused_ = false;
   std::optional<Timed> timed_;     // set if the request is for `seconds`
   std::optional<Part> under_way_;  // the chunk being sent
-  // Chunks interrupted by new requests. Only the rest of each is sent later.
+  // Chunks whose sending was interrupted by new requests. Only the remaining bytes of each are sent
+  // later.
   std::vector<Part> interrupted_;
 };
 

@@ -69,8 +69,8 @@ void Pacer::arrived(std::uint64_t bytes, Time now) {
   window_ = std::clamp(std::max(fitting, more), kLeastWindow, kMostWindow);
 }
 
-// Updates steady_, the rate without stalls, after bytes have arrived. Repeated stalls lower this
-// rate, since they show that the link has become slow.
+// Updates steady_, the rate apart from stalls, after bytes have arrived. Repeated stalls lower this
+// rate, because they show that the link has become slow.
 void Pacer::note_silence(Time now) {
   const bool was_silent = now - heard_ >= kNudge;
   if (was_silent) recovered_ = busy_;
@@ -81,8 +81,8 @@ void Pacer::note_silence(Time now) {
 }
 
 // Returns the number of bytes that may queue at this rate. This number grows with the rate, but
-// more slowly than the rate. If connections share a queue, the faster ones therefore slow down and
-// the others speed up until all have the same rate.
+// more slowly than the rate. If connections share a queue, the fast connections therefore slow down
+// and the slow ones speed up until all have the same rate.
 double Pacer::queue_bytes(double rate) {
   const double extra = std::min(rate * (kQueue - kFastQueue).count(), kFastExtra);
   return std::max(rate * kFastQueue.count() + extra, kLeastWindow);
@@ -94,9 +94,9 @@ std::uint32_t Pacer::slice_bytes(double rate) const {
       std::clamp(rate * slice_time_.count(), kLeast, static_cast<double>(kMaxSlice)));
 }
 
-// A measured delay contains the link's own delay and the queues of other senders, which a
-// connection cannot tell apart. So the bytes in flight beyond the connection's own needs are
-// limited, and all connections share that limit.
+// A measured delay consists of the link's own delay and of queues of other senders, and a
+// connection cannot distinguish the two. Therefore limits the bytes in flight beyond what the
+// connection itself needs. All connections share that limit.
 std::uint32_t Pacer::room(Time now, std::size_t busy_streams) {
   const double speed = rate(now), sharers = std::max(1.0, static_cast<double>(busy_streams));
   slice_time_ = std::max(kSliceTime, sharers * kSliceCost);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Congestion control for one connection: measures its rate and limits the bytes in flight. The
-// bytes in flight fill the link and a short queue, which keeps the link busy but delays a new
-// request only briefly. The rate is measured end to end, from the client's acknowledgements, so
-// that buffers of proxies do not distort it. Connections that compete for the same link or
-// processor converge to equal shares. No I/O, no clock: the caller passes the time.
+// Congestion control for one connection: measures its rate and limits the bytes in flight. Keeps so
+// many bytes in flight that they fill the link and a short queue. This keeps the link busy but
+// delays a new request only briefly. The rate is measured end to end, from the client's
+// acknowledgements, so that buffers of proxies do not distort it. Connections that compete for the
+// same link or processor converge to equal shares. Does no I/O and reads no clock: the caller
+// passes the time.
 #pragma once
 
 #include <chrono>
@@ -31,9 +32,9 @@ class Pacer {
   void know_delay(Duration own) { own_ = own; }
 
   // Returns the size in bytes of the slice that may be sent now, or 0 if none may be sent.
-  // `busy_streams` is the number of connections with bytes in flight, including this one. If
-  // nothing was sent and nothing has arrived for kNudge, always allows a slice, since the client
-  // may acknowledge only several slices together.
+  // `busy_streams` is the number of connections with bytes in flight, including this one. If no
+  // bytes were sent and none arrived for the time kNudge, allows a slice in any case, because the
+  // client may wait for more slices before it acknowledges.
   std::uint32_t room(Time now, std::size_t busy_streams);
 
   bool is_measured() const { return is_measured_; }
@@ -41,13 +42,13 @@ class Pacer {
   // rate falls while nothing arrives.
   double rate(Time now) const;
   // Whether the rate is dropping: a slice is late, or the newest part of the window is much slower
-  // than the whole window. How low rate() will fall is unknown then.
+  // than the whole window. In this case, it is unknown how low rate() will fall.
   bool is_falling(Time now) const;
 
   // Returns an optimistic rate. Before the first measurement, it is an estimate from the few bytes
   // seen so far, so that a client receives something at once. During a stall, and until the stall
-  // has left the window, it is the rate before the stall, as the connection may recover. Otherwise
-  // it is rate().
+  // has left the measurement window, it is the rate before the stall, because the connection may
+  // recover. Otherwise it equals rate().
   double hope(Time now) const;
 
   static constexpr Duration kNudge{0.25};
@@ -68,15 +69,15 @@ class Pacer {
   // The limit on the bytes in flight (window_) grows while the queueing delay is shorter than this.
   static constexpr Duration kShortQueue{0.03};
   static constexpr Duration kBaseAge{10};  // interval at which the link's delay is measured again
-  // Number of bytes that suffices for a measurement.
+  // Number of arrived bytes that suffices for a measurement.
   static constexpr std::uint64_t kEnough = 64 * 1024;
   static constexpr std::size_t kMostMarks = 64;
   static constexpr double kFirstWindow = 16 * 1024;
   static constexpr double kLeastWindow = 4 * 1024;
   static constexpr double kMostWindow = 16 << 20;
-  // Limit on the bytes in flight of all connections together, without those that each connection's
-  // own delay and queue account for. A connection whose own delay is unknown has the larger limit
-  // kUnknownShared, so that distant clients behind a proxy are not slowed down.
+  // Limit on the bytes in flight of all connections together, apart from those that each
+  // connection's own delay and queue require. A connection whose own delay is unknown has the
+  // larger limit kUnknownShared, so that distant clients behind a proxy are not slowed down.
   static constexpr double kShared = 256 * 1024, kUnknownShared = 8 << 20;
 
   struct Mark {
@@ -103,19 +104,19 @@ class Pacer {
   std::vector<Mark> marks_;  // the slices in flight, in order
   std::vector<Sample> samples_;
   bool is_measured_ = false;
-  double steady_ = 0;      // the rate without stalls
+  double steady_ = 0;      // the rate apart from stalls
   Time heard_{};           // time of the last arrival, or of a send with nothing in flight
   Duration recovered_{0};  // value of busy_ at the end of the last stall
   Duration base_ = Duration::max();  // the shortest round trip to the client
   Time base_since_{};
-  // Whether room() first lets the bytes in flight arrive, so that base_ is measured without a
-  // queue.
+  // If true, room() allows no slice until the bytes in flight have arrived, so that base_ is
+  // measured without a queue.
   bool drains_ = false;
   // The connection's own round-trip time, without queues; nullopt if unknown.
   std::optional<Duration> own_;
   double window_ = kFirstWindow;
-  // Time that sending one slice should take. It is longer if many streams are busy, as each slice
-  // costs processor time.
+  // Time that sending one slice should take. It increases with the number of busy streams, because
+  // each slice costs processor time.
   Duration slice_time_ = kSliceTime;
 };
 

@@ -32,7 +32,7 @@ struct PromiseMessage {
   std::uint64_t bytes = 0;      // bytes that the client will hold, including the head
   std::uint64_t triangles = 0;  // triangles that the client will hold
   double error = 0;             // maximum error of `level`, in model units
-  double seconds = 0;           // seconds until all of this has arrived
+  double seconds = 0;           // seconds until these data have arrived
   double bytes_per_second = 0;  // rate at which the model's bytes arrive
   bool measured = false;        // false if bytes_per_second is a guess before the first measurement
   bool operator==(const PromiseMessage&) const = default;

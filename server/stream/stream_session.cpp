@@ -27,7 +27,7 @@ using Request = WebSocket::Request;
 using Opcode = WebSocket::Opcode;
 using Model = StreamedModel;
 
-// Largest number of unsent bytes in the kernel's queue. It is small, since a new request cannot
+// Largest number of unsent bytes in the kernel's queue. It is small, because a new request cannot
 // overtake bytes in that queue.
 constexpr int kMostUnsent = 16 * 1024;
 constexpr std::size_t kMostAnswers = 16;  // largest number of answers that wait to be sent
@@ -36,8 +36,8 @@ StreamState::Time now() {
   return std::chrono::steady_clock::now();
 }
 
-// A reader passes messages to the state, and a writer sends the state's output. Both run on the
-// socket's strand.
+// One stream. A reader passes messages to the state, and a writer sends the state's output. Both
+// run on the socket's strand.
 class StreamSession : public std::enable_shared_from_this<StreamSession> {
  public:
   StreamSession(std::shared_ptr<ByteStream> socket, StreamOptions options, StreamHost& host,
@@ -73,7 +73,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   }
 
  private:
-  // Runs `work`. An exception in it ends only this connection.
+  // Runs `work`. An exception that it throws ends only this connection.
   asio::awaitable<void> guarded(asio::awaitable<void> (StreamSession::*work)()) {
     try {
       co_await (this->*work)();
@@ -188,8 +188,8 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     return {};
   }
 
-  // Closes the models' files at once, because a client that does not answer keeps the connection
-  // open until the timeout.
+  // Closes the models' files immediately: a client that does not answer keeps the connection open
+  // until the timeout.
   void close_with(websocket::close_reason reason) {
     if (!goodbye_) goodbye_ = std::move(reason);
     state_ = {};

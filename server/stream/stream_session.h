@@ -27,10 +27,9 @@ class StreamHost {
   // Finds a model that this client may see. The message of the error is sent to the client.
   virtual boost::asio::awaitable<Expected<StreamedModel>> find(std::string id) = 0;
   // Whether the client may still see the model, and the model's file is still the one that was
-  // opened. Called for each `want`. If the result is false, the connection ends with close code
-  // 1012.
+  // opened. Called for each `want`. If it returns false, the connection ends with close code 1012.
   virtual boost::asio::awaitable<bool> is_current(StreamedModel model) = 0;
-  // Called each time a model is opened or closed, with all models that are open then.
+  // Called each time a model is opened or closed. `models` are all models that are now open.
   virtual void shows(std::vector<StreamedModel> models) = 0;
   // Called once, when the stream starts. The host must call `stop` on the socket's strand when the
   // daemon stops; `stop` then closes the connection with close code 1012.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state of one client of pmesh.v1: its models, its credit (the bytes that it allows the server
-// to send) and its pace. Chooses what to send next. No I/O; the caller passes the time.
+// to send) and its pace. Chooses what to send next. Does no I/O and reads no clock: the caller
+// passes the time.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +13,14 @@
 namespace vitrine::server {
 
 inline constexpr std::uint64_t kFirstCredit = 64 * 1024;
-inline constexpr std::uint64_t kMaxCredit = 64u << 20;  // bytes; credit beyond this is ignored
+inline constexpr std::uint64_t kMaxCredit = 64u << 20;  // in bytes; credit beyond this is ignored
 
 class StreamState {
  public:
   using Time = Pacer::Time;
 
-  // Opens a model. The manifest must outlive the open model. Fails (kBadInput) if the number is
-  // taken.
+  // Opens a model. The manifest must outlive the open model. Fails (kBadInput) if another open
+  // model has the number.
   Expected<void> open(std::uint16_t model, const Manifest& manifest, bool head);
 
   // Handles any message except an OpenMessage, for which the caller calls open(). Fails with
@@ -54,7 +55,8 @@ class StreamState {
  private:
   struct Sharer {
     ModelStream stream;
-    // Bytes sent; after an idle time, raised to the count of the models that were sending.
+    // Bytes sent for this model. After an idle time, raised to the count of the models that were
+    // sending.
     std::uint64_t served;
   };
 

@@ -30,7 +30,7 @@ class ByteStream {
   explicit ByteStream(Socket socket);  // makes the socket non-blocking
   ~ByteStream();
 
-  // Performs the server's part of a TLS handshake; afterwards all bytes are encrypted.
+  // Performs the server's part of a TLS handshake. After it, all bytes are encrypted.
   boost::asio::awaitable<Error> encrypt(std::shared_ptr<const TlsContext> context);
   struct ClientHandshake {
     Error error;
@@ -44,7 +44,7 @@ class ByteStream {
   boost::asio::awaitable<Error> connect(std::vector<Endpoint> endpoints);
   // Ends the outgoing direction. With TLS, also waits for the peer's close_notify.
   boost::asio::awaitable<void> finish();
-  // Whether the stream uses TLS. If not, callers may write to native_handle() directly.
+  // Whether the stream uses TLS. If it does not, callers may write to native_handle() directly.
   bool is_encrypted() const { return tls_ != nullptr; }
 
   // Returns the IP address, "unix", or "-" if the peer has disconnected.

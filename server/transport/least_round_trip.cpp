@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/transport/least_round_trip.h"
 
-// This is the kernel's header, because glibc's <netinet/tcp.h> lacks tcpi_min_rtt. A file cannot
-// include both headers.
+// Includes the kernel's header, because glibc's <netinet/tcp.h> lacks tcpi_min_rtt. A file cannot
+// include both.
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -18,7 +18,7 @@ std::optional<std::chrono::microseconds> least_round_trip(int socket) {
   constexpr std::size_t kEnough = offsetof(tcp_info, tcpi_min_rtt) + sizeof info.tcpi_min_rtt;
   if (::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &info, &size) != 0 || size < kEnough)
     return std::nullopt;
-  // The kernel reports UINT32_MAX if it has not measured a round trip yet.
+  // UINT32_MAX means that the kernel has not measured a round trip yet.
   if (info.tcpi_min_rtt == UINT32_MAX) return std::nullopt;
   return std::chrono::microseconds(info.tcpi_min_rtt);
 }

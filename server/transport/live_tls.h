@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The certificate in force. It can be replaced; existing connections keep the old one.
+// The current TLS certificate. It can be replaced while the server runs; existing connections keep
+// the old one.
 #pragma once
 
 #include <memory>
@@ -17,9 +18,9 @@ class LiveTls {
 
   std::shared_ptr<const TlsContext> current() const;
 
-  // Reads the files again if one has changed. Returns true if their new content is now in force,
-  // false if no file has changed. If reading fails, the old certificate stays in force, and the
-  // error is returned once per change.
+  // Reads the files again if one has changed. Returns true if the new certificate is now used,
+  // false if no file has changed. If reading fails, keeps the old certificate and returns the error
+  // once per change of the files.
   Expected<bool> refresh();
 
  private:

@@ -40,7 +40,7 @@ Expected<void> check_readable(const std::filesystem::path& file) {
 }
 
 int no_passphrase(char*, int, int, void*) {
-  return 0;  // there is no passphrase; without this callback, OpenSSL would prompt on the terminal
+  return 0;  // without this callback, OpenSSL would ask for a passphrase on the terminal
 }
 
 std::string text_of(const ASN1_TIME* time) {
@@ -83,7 +83,7 @@ void configure(SSL_CTX* context) {
   SSL_CTX_set_min_proto_version(context, TLS1_2_VERSION);
   SSL_CTX_set_cipher_list(context, kCiphers);
   SSL_CTX_set_options(context, SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
-  SSL_CTX_set_mode(context, SSL_MODE_RELEASE_BUFFERS);  // an idle connection keeps no buffers
+  SSL_CTX_set_mode(context, SSL_MODE_RELEASE_BUFFERS);  // makes idle connections free their buffers
   SSL_CTX_set_default_passwd_cb(context, no_passphrase);
   SSL_CTX_set_alpn_select_cb(context, choose_protocol, nullptr);
 }

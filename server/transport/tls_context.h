@@ -16,7 +16,7 @@ namespace vitrine::server {
 struct TlsFiles {
   // PEM file: the server's certificate, followed by the intermediate certificates up to the root.
   std::filesystem::path certificate;
-  std::filesystem::path key;  // PEM, without a passphrase
+  std::filesystem::path key;  // a PEM file without a passphrase
 
   bool operator==(const TlsFiles&) const = default;
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks every route of the OpenAPI document as every role, for models in every state, on two daemons that share a
-// PostgreSQL catalogue and a Ceph bucket. One daemon, which drives a simulated scanner, makes and changes the model.
-// Nothing that the model then hides may come out of either, and both must give the same statuses. Prints the access
-// matrix. run.sh starts this test.
+// Walks every route of the OpenAPI document as every role, for models in every state, on two
+// daemons that share a PostgreSQL catalogue and a Ceph bucket. One daemon, which drives a simulated
+// scanner, makes and changes the model. Neither daemon may then reveal anything that the model
+// hides, and both must respond with the same statuses. Prints the access matrix. run.sh starts this
+// test.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { randomBytes } from "node:crypto";
@@ -101,7 +102,7 @@ async function json(one, method, path, role, value) {
 
 /** Waits for the end of a job. Returns its model. */
 async function ended(job) {
-  await ask(replicas[0], "GET", `/api/v1/jobs/${job}/events`, "operator"); // ends with the job
+  await ask(replicas[0], "GET", `/api/v1/jobs/${job}/events`, "operator"); // the response ends when the job ends
   const { state, model, error } = await json(replicas[0], "GET", `/jobs/${job}`, "operator");
   assert.equal(state, "done", error);
   return model;
@@ -126,8 +127,9 @@ async function scan(number, order) {
 const manifestOf = (one, model, role) => ask(one, "GET", `/api/v1/models/${model}/manifest`, role);
 
 /**
- * Returns the bytes that show a model at a level, or at its finest one: exports and, of the finest level, chunks and the
- * poster, unless another poster, which shares bytes with it, is public.
+ * Returns bytes that reveal a model at `level`, or at its finest level: its exports and, at the
+ * finest level, also its chunks and its poster. Leaves out the poster if another public poster
+ * shares bytes with it.
  */
 async function pictured(model, level, hasPoster = false) {
   const query = level === undefined ? "" : `?level=${level}`, paths = kBinary.map((format) => `/export.${format}${query}`);
@@ -139,7 +141,10 @@ async function pictured(model, level, hasPoster = false) {
   return { bytes: answers.map(({ body }) => withoutText(body)), names: chunks.map(({ sha256 }) => sha256) };
 }
 
-/** Returns the points and the profile of a model's scan, if it is scanned. */
+/**
+ * Returns the points and the profile of a model's scan, or an empty list if the model was not
+ * scanned.
+ */
 async function measuredBy({ scan }) {
   const paths = scan ? [`/scans/${scan}/points`, `/scans/${scan}/profile`] : [];
   const answers = await Promise.all(paths.map((path) => ask(replicas[0], "GET", `/api/v1${path}`, "admin")));
@@ -147,12 +152,15 @@ async function measuredBy({ scan }) {
   return { bytes: answers.map(({ body }) => body) };
 }
 
-/** Returns a file without the JSON of a GLB, whose words are no secret. */
+/** Returns a file. Removes the JSON of a GLB, whose words are no secret. */
 function withoutText(file) {
   return file.subarray(0, 4).toString() === "glTF" ? file.subarray(20 + file.readUInt32LE(12)) : file;
 }
 
-/** Waits until the second daemon shows visitors the same model as the first one, which a daemon may take a second for. */
+/**
+ * Waits until the second daemon shows visitors the same model as the first daemon. This can take a
+ * second.
+ */
 async function agree(model) {
   const seen = ({ status, headers }) => `${status} ${status === 200 ? headers.etag : ""}`;
   for (;;) {
@@ -179,7 +187,7 @@ function queries(path, model) {
 /** Asks one daemon for a route as one role, for all values of its parameters. Returns the statuses. */
 async function walk(one, { method, path, role: least }, role, { state, made, names, secrets }) {
   const may = kRoles.indexOf(role) >= kRoles.indexOf(least), statuses = [];
-  if (may && method !== "GET") return statuses; // this would change the model
+  if (may && method !== "GET") return statuses; // the request would change the model
   const ids = [made.model, made.job, "01arz3ndektsv4rrffq69g5fav", ...(made.scan ? [made.scan] : [])];
   for (const expansion of expanded(path, { id: ids, sha256: names, format: kFormats, name: ["rig"], number: ["1"] })) {
     for (const query of queries(path, made.model)) {
@@ -239,7 +247,7 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     await agree(made.model);
     const hidesPoster = typeof shown !== "number";
     const old = await pictured(made.model, undefined, hidesPoster);
-    await Promise.all(replicas.map((one) => streamed(one, made.model))); // now both daemons have it in memory
+    await Promise.all(replicas.map((one) => streamed(one, made.model))); // now both daemons have the model in memory
     const measured = await measuredBy(made);
     await enter(made);
     assert.equal(await agree(made.model), status);
@@ -247,7 +255,7 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     for (const { bytes } of [old, now, measured]) bytes.forEach((part) => secrets.hide(part));
     const open = shown === "all" ? now : shown === "none" ? { bytes: [] } : await pictured(made.model, shown);
     open.bytes.forEach((part) => secrets.reveal(part));
-    secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/`)); // exports state their source
+    secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/`)); // every export states this URL as its source
     if (state === "published") measured.bytes.forEach((part) => secrets.reveal(part));
     assert.ok(state === "published" || state === "in cm" || secrets.size > 100, "nothing is hidden, so this test proves nothing");
     const visit = { state: `${subject} is ${state}`, made, secrets, names: [...new Set([...old.names, ...now.names])] };

@@ -21,9 +21,9 @@ import { Viewer } from "./viewer.mjs";
 
 const kSides = [220, 200, 180], kBriefSides = [70, 60]; // vertices per side of the meshes
 const kViewers = 3;
-const kAway = 20_000; // ms for which first PostgreSQL and then the object store is stopped
-const kLongestGap = 5_000; // ms: maximum time in which a viewer receives no data after a serving replica is killed or a back end is stopped
-const kDeadline = 200_000; // ms: time limit of each step
+const kAway = 20_000; // time in ms for which first PostgreSQL and then the object store are stopped
+const kLongestGap = 5_000; // longest time, in ms, without data for a viewer after a serving replica is killed or a back end is stopped
+const kDeadline = 200_000; // time limit of each step, in ms
 const rounds = Number(process.env.VITRINE_ROUNDS ?? 1);
 const seed = Number(process.env.VITRINE_SEED ?? Date.now() % 1_000_000);
 const random = chance(seed);
@@ -198,7 +198,7 @@ step("every model equals the file of vitrine build, bit for bit; no object in us
   const named = (await cluster.postgres.query("SELECT DISTINCT encode(file, 'hex') FROM model")).flat();
   assert.deepEqual(invariants.collectedAlive(named, await cluster.gateway.objects()), []);
   const [cold] = cluster.having("serve");
-  await cold.crash(); // its local copies are lost
+  await cold.crash(); // the daemon's local copies are lost
   const models = [];
   const served = async (model, expected) => {
     const answer = await fetch(`${cold.url}/api/v1/models/${model}/file.pmesh`);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A vitrined process of a test cluster. It is restarted whenever it dies, as systemd would do.
+// A vitrined process of a test cluster. It is restarted whenever it dies, as under systemd.
 import { readFile, rm } from "node:fs/promises";
 import { join } from "node:path";
 import { setTimeout as pause } from "node:timers/promises";

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-const kWindow = 16; // bytes
+const kWindow = 16; // length of a window, in bytes
 
-/** Content that a visitor must not get. Knows adjacent windows of kWindow bytes of it, so it finds any 31 bytes of it. */
+/**
+ * Content that visitors must not get. Stores its adjacent windows of kWindow bytes, and therefore
+ * recognises any 31 successive bytes of it.
+ */
 export class Secrets {
   #windows = new Set();
 

@@ -3,7 +3,7 @@
 import { setTimeout as pause } from "node:timers/promises";
 import { note } from "./timeline.mjs";
 
-const kResponseTimeout = 3_000; // ms until a request fails
+const kResponseTimeout = 3_000; // time limit of a request, in ms
 const kSteps = 48; // number of turntable steps per scan
 const kPoses = 12; // number of target poses per calibration
 

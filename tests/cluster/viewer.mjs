@@ -101,6 +101,6 @@ export class Viewer {
   #whole() {
     ++this.rounds;
     this.#forget();
-    this.socket.end(); // so that the server forgets the chunks that this connection reported in `have`
+    this.socket.end(); // makes the server forget the chunks that this connection reported in `have`
   }
 }

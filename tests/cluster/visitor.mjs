@@ -4,7 +4,7 @@ import { once } from "node:events";
 import https from "node:https";
 import { setTimeout as pause } from "node:timers/promises";
 
-const kPause = 100; // ms between attempts
+const kPause = 100; // time between attempts, in ms
 
 export class Visitor {
   /** Connects to nginx at `url`; `ca` is its certificate. */

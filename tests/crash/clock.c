@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library to preload. It adds to the time of day the seconds that the file named by CLOCK_OFFSET
-// holds as a 64-bit number, which a test changes. Steady clocks stay.
+// A library for LD_PRELOAD that shifts the time of day of a process. The file named by CLOCK_OFFSET
+// holds the shift in seconds, as a signed 64-bit number. A test may change this number while the
+// process runs. Monotonic clocks are not shifted.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>

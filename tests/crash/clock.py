@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Lets the daemon's clock jump by an hour while jobs hold leases. Each job makes one model, also after a kill.
+"""Shifts the daemon's clock by an hour while jobs hold leases. Each job must make exactly one model, even after a kill.
 
 usage: clock.py BINARIES [JOBS]
 """
@@ -21,7 +21,7 @@ TIMEOUT = 60  # seconds until the test fails because a job does not end
 
 
 class Clock:
-    """The daemon's time of day through clock.c."""
+    """Controls the time of day that the daemon sees, by means of clock.c."""
 
     def __init__(self, folder):
         self.library, file = folder / "clock.so", folder / "offset"
@@ -44,7 +44,7 @@ def start_job(client, mesh):
 
 
 def wait_for(client, job, states, jump=lambda: None):
-    """Returns the record of a job once it is in one of these states. Calls `jump` meanwhile."""
+    """Waits until a job is in one of `states`, and returns its record. Calls `jump` after each poll."""
     end = time.monotonic() + TIMEOUT
     while (record := client.json("GET", f"/api/v1/jobs/{job}")[1])["state"] not in states:
         assert time.monotonic() < end, f"a job does not end: {record}"
@@ -53,7 +53,7 @@ def wait_for(client, job, states, jump=lambda: None):
 
 
 def check(client, jobs):
-    """Checks that each job is done, and that each made one model and no other is there."""
+    """Checks that each job has succeeded and made one model, and that there are no other models."""
     made = [wait_for(client, job, ("done", "failed")) for job in jobs]
     assert all(record["state"] == "done" for record in made), made
     models = [model["id"] for model in client.json("GET", "/api/v1/models?drafts=true&limit=200")[1]["models"]]
@@ -61,7 +61,7 @@ def check(client, jobs):
 
 
 def jump_while_jobs_run(client, clock, count):
-    """Jumps forth and back while jobs run, at each request that asks for a job's state."""
+    """Runs `count` jobs. After each poll of a job, shifts the clock forwards, back or to the right time. Returns the jobs."""
     jobs, jumps = [], [HOUR, 0, -HOUR, 0]
     for number in range(count):
         jobs.append(start_job(client, torus(40 + number, 30)))
@@ -72,7 +72,7 @@ def jump_while_jobs_run(client, clock, count):
 
 
 def kill_with_a_lease_of_the_future(binaries, data, token, clock, jobs):
-    """Kills the daemon while a job's lease ends in an hour by the right clock. A new daemon must finish the job."""
+    """Kills the daemon while its clock is an hour fast, so that the lease of its job ends an hour too late. Adds the job to `jobs`."""
     daemon = Daemon(binaries, data, before=clock.environment)
     try:
         client = Client(daemon, token)

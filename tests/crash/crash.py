@@ -173,7 +173,7 @@ class Look:
                 raise AssertionError(f"{path}: {sent} bytes were acknowledged, {offset} are there")
 
     def may_fail(self, error):
-        """Returns whether a job may fail so: its upload was used, or its model deleted, by an earlier request."""
+        """Returns whether a job may fail with `error`: an earlier request has used its upload or deleted its model."""
         return "gone" in error
 
     def jobs_have_ended(self, client, known):

@@ -18,7 +18,7 @@ from pathlib import Path
 from crash import torus
 from daemon import Client, Daemon, new_token
 
-SIZE = 6 << 20  # bytes of the small disk
+SIZE = 6 << 20  # size of the small disk, in bytes
 HALF = 100_000  # bytes of one half of an upload
 
 

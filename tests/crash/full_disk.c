@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library to preload. It lets the n-th step fail with which a program changes a disk, as if the
-// disk were full. A test shares the file that FULL_DISK names, and sets n in it.
+// A library for LD_PRELOAD that simulates a full disk. It counts the calls with which a program
+// changes a disk, called steps here, and lets a range of them fail. A test shares the file named by
+// FULL_DISK, and writes the range to it.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -12,9 +13,8 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-// The content of the shared file. `first` is the number of the first step that fails, from 1, or 0
-// for none; `last` is the number of the last one. `steps` counts the steps since a test set it to
-// 0.
+// The content of the shared file. The steps number `first` to `last` fail. Numbers start at 1. If
+// `first` is 0, no step fails. `steps` is the number of steps since a test set it to 0.
 struct Control {
   unsigned first, last, steps;
 };
@@ -30,7 +30,7 @@ __attribute__((constructor)) static void share(void) {
   close(fd);
 }
 
-// Counts a step. Returns nonzero, and sets errno, if the step must fail.
+// Counts a step. Returns 1 and sets errno to ENOSPC if the step must fail. Otherwise returns 0.
 static int fails(void) {
   if (!control) return 0;
   const unsigned step = __atomic_add_fetch(&control->steps, 1, __ATOMIC_SEQ_CST);
@@ -47,7 +47,7 @@ static int is_file(int fd) {
   return is;
 }
 
-// Defines a function of the C library that makes a step if `IS_STEP`.
+// Replaces a function of the C library. A call counts as a step if `IS_STEP` is true.
 #define STEP(TYPE, NAME, PARAMETERS, ARGUMENTS, IS_STEP)           \
   TYPE NAME PARAMETERS {                                           \
     static TYPE(*next) PARAMETERS;                                 \
@@ -69,7 +69,7 @@ STEP(int, mkdir, (const char* path, mode_t mode), (path, mode), 1)
 STEP(int, link, (const char* from, const char* to), (from, to), 1)
 STEP(int, rename, (const char* from, const char* to), (from, to), 1)
 
-// Defines a function of the C library that makes a step if it creates a file.
+// Replaces a function like open(). A call counts as a step if it creates a file.
 #define OPEN(NAME)                                                             \
   int NAME(const char* path, int flags, ...) {                                 \
     static int (*next)(const char*, int, ...);                                 \

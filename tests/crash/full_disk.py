@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Publishes a model again and again while the n-th change of the disk fails, for all n.
+"""Publishes models while a change of the disk fails, for each change that a publication makes.
 
 usage: full_disk.py BINARIES [MORE...]
 
-Changes are writes, syncs, new files and folders, links and renames, those of SQLite included. For each number MORE (2),
-there is a series of publications in which the n-th change fails and MORE further ones, which are those of cleaning up, so n
-grows by MORE + 1.
-Requests that this prevents get 507, or 503 if the catalogue fails. After each publication, all models that the daemon has
-confirmed are served whole, no other is seen, and the same upload becomes a model once there is room. At the end the store
-holds nothing else, `vitrine doctor` finds no damage, and the daemon starts again.
+Changes are writes, syncs, new files and folders, links and renames, including those of SQLite. Each argument MORE (default
+2) stands for a series of publications. In each publication, the n-th change and the MORE changes after it fail, so that
+cleaning up fails, too. Then n increases by MORE + 1.
+
+A request that fails for lack of space must get the status 507, or 503 if the catalogue fails. After each publication, the
+daemon must serve all confirmed models whole, and list no others. Once there is space, the same upload must become a model.
+At the end, the store must hold no other objects, `vitrine doctor` must find no damage, and the daemon must start again.
 """
 import hashlib
 import itertools
@@ -29,7 +30,7 @@ TIMEOUT = 60  # seconds until the test fails because a job does not end
 
 
 class Disk:
-    """The disk as the daemon sees it through full_disk.c."""
+    """Controls which changes of the disk fail for the daemon, by means of full_disk.c."""
 
     def __init__(self, folder):
         self.library, self.file = folder / "full_disk.so", folder / "control"
@@ -63,7 +64,7 @@ class Publisher:
         self.refused, self.failed = 0, 0
 
     def upload(self, content):
-        """Returns the ID of a complete upload, or None if the daemon refuses it."""
+        """Uploads `content`. Returns the ID of the upload, or None if the daemon refuses it for lack of space."""
         answer = self.client.tus("POST", "/api/v1/uploads", Upload_Length=len(content))
         if not accepted(answer.status, 201):
             return None
@@ -72,7 +73,7 @@ class Publisher:
         return path.rsplit("/", 1)[1] if accepted(status, 204) else None
 
     def job(self, upload):
-        """Returns the ended job that makes a model of an upload, or None if the daemon refuses it."""
+        """Makes a model of an upload. Returns the ended job, or None if the daemon refuses the job for lack of space."""
         status, started = self.client.json("POST", "/api/v1/models", {"upload": upload, "publish": True, "metadata": {"title": "Torus"}})
         return self.ended(started["job"]) if accepted(status, 202) else None
 
@@ -84,7 +85,7 @@ class Publisher:
         return record
 
     def publish(self, content):
-        """Publishes a mesh on a disk that may be full. Returns its upload if it still has to become a model."""
+        """Publishes a mesh on a disk that may be full. Returns the ID of the upload if its job failed or was refused, else None."""
         upload = self.upload(content)
         job = upload and self.job(upload)
         if job and job["state"] == "done":
@@ -94,7 +95,7 @@ class Publisher:
         return upload
 
     def check(self):
-        """Checks that the confirmed models are served whole, and that no other is seen."""
+        """Checks that the daemon serves the confirmed models whole, and lists no others."""
         for drafts in ("", "?drafts=true&limit=200"):
             seen = {model["id"] for model in self.client.json("GET", "/api/v1/models" + drafts)[1]["models"]}
             assert seen <= self.files.keys(), "part of a model is seen"
@@ -113,14 +114,14 @@ class Publisher:
 
 
 def fail_each(publisher, disk, kept, more):
-    """Publishes while change n and `more` further ones fail, until each has failed. Returns the number of changes."""
+    """Publishes while change n and the `more` changes after it fail, until n exceeds the number of changes. Returns that number."""
     for n in itertools.count(1, more + 1):
         content = torus(12 + n % 50, 8 + n // 50)
         disk.fail(n, n + more)
         upload = publisher.publish(content)
         steps = disk.heal()
         publisher.check()
-        if upload:  # it was complete, so it is kept
+        if upload:  # the upload is complete, so the daemon must have kept it
             job = publisher.job(upload)
             assert job and job["state"] == "done", (n, job)
             publisher.files[job["model"]] = None
@@ -151,7 +152,7 @@ def run(binaries, folder, data, series):
 
 
 def check_all(binaries, data, token, publisher):
-    """Checks the installation after a new start: its models, that nothing else is stored, and the doctor's word."""
+    """Starts the daemon again and checks its models. Then checks that nothing else is stored, and that the doctor finds no damage."""
     daemon = Daemon(binaries, data)
     try:
         publisher.client = Client(daemon, token)

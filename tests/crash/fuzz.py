@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Sends mutated HTTP requests and WebSocket frames to the daemon. It must neither end, nor answer 5xx, nor grow.
+"""Sends mutated HTTP requests and WebSocket frames to the daemon.
+
+The daemon must not end, must not answer with a status 5xx, and must not use more and more memory.
 
 usage: fuzz.py BINARIES [REQUESTS [FRAMES [SEED]]]
 
-The seeds of the requests are all calls of the OpenAPI document and some pages, with and without a token. The seeds of the
-frames are all messages of the stream protocol. Prints the random seed, how often each status came, and the memory.
+The requests are mutations of all calls of the OpenAPI document and of requests for some pages, with and without a token.
+The frames are mutations of all messages of the stream protocol. Prints the random seed, how often each status occurred, and
+how much memory the daemon used.
 """
 import collections
 import contextlib
@@ -24,11 +27,11 @@ from daemon import Client, Daemon, new_token
 from disk import job_of, upload
 from mutations import mutated
 
-TIMEOUT = 20  # seconds that a connection may take to end after its last byte, and all descriptors to be closed
+TIMEOUT = 20  # seconds within which the daemon must end a connection or job, or close its descriptors
 GROWTH = 4 << 20  # bytes by which the resident memory may grow after the first half of a long run
-WARM = 20000  # number of requests or frames of a long run; in a shorter one, caches and arenas still fill
-COLD_GROWTH = 32 << 20  # bytes by which the memory may grow in a shorter run
-ROUND = 1000  # number of requests or frames after which the model is made again if a request has deleted it
+WARM = 20000  # least number of requests or frames of a long run; in shorter runs, caches and arenas still grow
+COLD_GROWTH = 32 << 20  # bytes by which the resident memory may grow after the first half of a shorter run
+ROUND = 1000  # number of requests or frames per round; a model that was deleted is made again before the next round
 OPTIONS = ["--request-rate", "0", "--max-connections-per-address", "0", "--export-cache", "4000000", "--model-cache", "4000000",
            "--max-upload", "1000000"]
 OEMBED_FORMAT = b"501"  # the status that oEmbed prescribes for an unknown format; no other 5xx may come
@@ -36,7 +39,7 @@ STATUS = re.compile(rb"HTTP/1\.1 (\d{3}) ")
 
 
 def mutated_request(dice, seeds):
-    """Returns a random request, mutated anywhere, or in its target, one field or its body alone, which handlers then see."""
+    """Returns a request mutated anywhere, or only in its target, a field or its body, so that it reaches the handlers."""
     part = dice.choice(["any", "target", "field", "body"])
     head, end, body = dice.choice(seeds).partition(b"\r\n\r\n")
     if part == "body" and body:
@@ -55,7 +58,7 @@ def mutated_request(dice, seeds):
 
 
 def talk(port, content):
-    """Sends `content` on a connection of its own and ends it. Returns all that the daemon sends until it ends it, too."""
+    """Sends `content` on a new connection and shuts down the sending side. Returns all bytes that the daemon sends until it closes."""
     with socket.create_connection(("127.0.0.1", port), TIMEOUT) as connection:
         answer = bytearray()
         try:
@@ -65,13 +68,13 @@ def talk(port, content):
                 answer += part
         except TimeoutError:
             raise
-        except OSError:  # the daemon need not read all of a bad request
+        except OSError:  # the daemon may close the connection before it has read all of a bad request
             pass
         return bytes(answer)
 
 
 class Requests:
-    """Valid requests for a model and the other things that the daemon holds, as bytes."""
+    """Valid requests, as bytes. They refer to a model, a job and an upload that the daemon has."""
 
     BODIES = {
         "ModelOrder": {"upload": "UPLOAD", "publish": True, "metadata": {"title": "Torus", "subject": "ring"}, "bits": 12},
@@ -94,7 +97,7 @@ class Requests:
                 self.all += self.of(method.upper(), path, call)
 
     def of(self, method, path, call):
-        """Returns the requests for one call: without a query, with each parameter, without a token, and conditional."""
+        """Returns requests for one call: without a query, with each query parameter, and without a token but with further fields."""
         fields = "Host: localhost\r\nTus-Resumable: 1.0.0\r\nUpload-Length: 900\r\nUpload-Offset: 0\r\nIdempotency-Key: k\r\n"
         body, kind = "", next(iter(call.get("requestBody", {}).get("content", {"": {}}).items()))
         if kind[0] == "application/json":
@@ -105,7 +108,7 @@ class Requests:
         thing = {"jobs": "JOB", "uploads": "UPLOAD"}.get(path.split("/")[3], "MODEL")
         head = f"{method} {path.replace('{id}', thing)}"
         hides_the_model = thing == "MODEL" and (method == "DELETE" or path.endswith("/unpublish"))
-        bearer = "" if hides_the_model else self.bearer  # else most requests would get 404
+        bearer = "" if hides_the_model else self.bearer  # without a model, most later requests would get 404
         requests = [self.filled(f"{head}{query} HTTP/1.1\r\n{fields}{bearer}", body) for query in queries]
         for more in ("", "Range: bytes=5-9,20-29\r\n", 'If-None-Match: "x", W/"y"\r\n', "Accept-Encoding: gzip;q=0.5, br\r\n",
                      "X-Forwarded-For: 10.0.0.1, 10.0.0.2\r\nForwarded: for=1.2.3.4;proto=https\r\nOrigin: http://other.example\r\n"):
@@ -123,7 +126,7 @@ class Requests:
 
 
 def frame(dice, payload, kind=1, mask=0x80):
-    """Returns a WebSocket frame of a client (RFC 6455, section 5.2)."""
+    """Returns a WebSocket frame as a client sends it (RFC 6455, section 5.2)."""
     length = len(payload)
     sized = bytes([mask | length]) if length < 126 else bytes([mask | 126]) + length.to_bytes(2, "big") if length < 1 << 16 else \
         bytes([mask | 127]) + length.to_bytes(8, "big")
@@ -141,7 +144,7 @@ def messages(model):
 
 
 class Attack:
-    """One daemon with a model, a job and an upload, and the requests and frames that go to it."""
+    """Runs a daemon that has a model, a job and an upload, and sends mutated requests and frames to it."""
 
     def __init__(self, binaries, data, dice):
         self.dice, self.data, self.binaries, self.seen = dice, data, binaries, collections.Counter()
@@ -149,13 +152,13 @@ class Attack:
         self.daemon = Daemon(binaries, data, OPTIONS)
 
     def client(self):
-        """Returns a client with a token that is valid, although a request may have removed the last one."""
+        """Returns a client with a valid token. Makes a new token if a request has removed the last one."""
         if Client(self.daemon, self.token).json("GET", "/api/v1/models")[0] == 401:
             self.token = new_token(self.binaries, self.data, "admin")
         return Client(self.daemon, self.token)
 
     def make(self):
-        """Publishes a model unless it is there, and makes the seeds, which name it."""
+        """Publishes a model if there is none, and makes the valid requests and messages, which contain its ID."""
         client = self.client()
         if not self.model or not self.is_public(client):
             job = job_of(client, upload(client, torus(40, 24))[1])
@@ -167,7 +170,7 @@ class Attack:
         self.requests, self.messages = Requests(document, self.token, names).all, messages(self.model)
 
     def warm(self):
-        """Sends all reading requests as they are, so that caches and the threads' memory fill before it is measured."""
+        """Sends all GET requests without mutations, so that caches and thread arenas are filled before memory is measured."""
         for request in self.requests:
             if request.startswith(b"GET"):
                 talk(self.daemon.port, request)
@@ -184,7 +187,7 @@ class Attack:
         return upload(client, torus(10, 8))[1].rsplit("/", 1)[1]
 
     def send_requests(self, count):
-        """Sends `count` mutated requests, several on a connection."""
+        """Sends `count` mutated requests, up to three on each connection."""
         while count > 0:
             some = [mutated_request(self.dice, self.requests) for _ in range(min(count, self.dice.choice([1, 1, 3])))]
             self.seen.update(STATUS.findall(talk(self.daemon.port, b"".join(some))))
@@ -200,7 +203,7 @@ class Attack:
             self.seen.update(STATUS.findall(talk(self.daemon.port, upgrade + b"".join(before) + self.mutated_frame())[:20]))
 
     def mutated_frame(self):
-        if self.dice.random() < 0.6:  # a correct frame with a mutated message
+        if self.dice.random() < 0.6:  # a valid frame with a mutated message
             return frame(self.dice, mutated(self.dice, self.messages), self.dice.choice([1, 1, 1, 1, 2, 8, 9]))
         return mutated(self.dice, [frame(self.dice, message, kind, mask) for message in self.messages[:3]
                                    for kind in range(16) for mask in (0x80, 0)])
@@ -212,7 +215,7 @@ class Attack:
             raise AssertionError("".join(faults[:5]))
 
     def resident(self):
-        """Returns the daemon's memory in bytes once no job is at work: a job that publishes draws posters."""
+        """Waits until all jobs have ended, because they need memory. Returns the daemon's resident memory in bytes."""
         client, end = self.client(), time.monotonic() + TIMEOUT
         while any(job["ended"] is None for job in client.json("GET", "/api/v1/jobs")[1]["jobs"]):
             assert time.monotonic() < end, "a job does not end"
@@ -222,10 +225,10 @@ class Attack:
         return int(re.search(r"VmRSS:\s+(\d+)", status)[1]) << 10
 
     def descriptors(self):
-        """Returns what each open descriptor of the daemon refers to, without the files of the models that it caches."""
+        """Returns what each open descriptor of the daemon refers to, except undeleted model files, which the daemon caches."""
         found = []
         for link in Path(f"/proc/{self.daemon.process.pid}/fd").iterdir():
-            with contextlib.suppress(FileNotFoundError):  # closed meanwhile
+            with contextlib.suppress(FileNotFoundError):  # the daemon has closed the descriptor meanwhile
                 found.append(os.readlink(link))
         return [name for name in found if "/objects/" not in name or "(deleted)" in name]
 
@@ -237,7 +240,7 @@ class Attack:
             time.sleep(0.02)
 
     def run(self, send, count, name):
-        """Sends `count` mutations in rounds. Compares the memory at the half with that at the end."""
+        """Sends `count` mutations in rounds. Checks how much the memory grows in the second half."""
         before, half = len(self.descriptors()), None
         for sent in range(0, count, ROUND):
             self.make()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Lets allocations fail at random. Requests that need memory may fail or be cut off, but the daemon must go on serving.
+"""Lets allocations fail at random. Requests that need memory may fail or be cut off, but the daemon must keep serving.
 
 usage: memory.py BINARIES [ROUNDS]
 """

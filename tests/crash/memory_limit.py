@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Builds a mesh for which the control group of the daemon has too little memory. The job fails, and the daemon goes on.
+"""Builds a mesh that needs more memory than the daemon's control group has. The job must fail, and the daemon must survive.
 
 usage: memory_limit.py BINARIES
 
-Exits with 77, which ctest counts as skipped, if this machine lets the user make no control group with a limit of memory.
+Exits with 77, which ctest counts as skipped, if the user may not make a control group with a memory limit.
 """
 import contextlib
 import os
@@ -17,12 +17,12 @@ from daemon import Client, Daemon, new_token
 from disk import is_served, job_of, upload
 
 SKIPPED = 77
-LIMIT = 60 << 20  # bytes for the daemon and its children
+LIMIT = 60 << 20  # bytes that the daemon and its child processes may use together
 GROUPS = ((Path("/sys/fs/cgroup/memory"), "memory.limit_in_bytes"), (Path("/sys/fs/cgroup"), "memory.max"))
 
 
 def limited_group():
-    """Returns the folder of a new control group with the limit, or None if it cannot be made."""
+    """Returns the folder of a new control group with the memory limit, or None if it cannot be made."""
     for root, limit in GROUPS:
         group = root / f"vitrine-test-{os.getpid()}"
         with contextlib.suppress(OSError):

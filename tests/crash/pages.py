@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Damages the catalogue page by page. The daemon must refuse to start or serve, but neither crash nor send wrong bytes.
+"""Damages the catalogue page by page. The daemon may refuse to start or serve, but must neither crash nor send wrong bytes.
 
 usage: pages.py BINARIES
 
-Inverts each page of the SQLite file in turn, and one random bit of it. After each damage, every file that the daemon sends
-for a model is the file of this model, `vitrine doctor --scrub` finds each inverted page, and the daemon stops in order.
-Prints the seed of the bits.
+For each page of the SQLite file, makes two damaged copies: one with all bits of the page inverted, one with a random bit
+inverted. With each copy, every model file that the daemon sends must be the right one, and no signal may end the daemon.
+`vitrine doctor --scrub` must find each inverted page. Prints the random seed.
 """
 import collections
 import hashlib
@@ -39,7 +39,7 @@ def make(binaries, data):
 
 
 def compact(catalogue):
-    """Leaves one file without unused pages, whose damage nobody could notice. Returns the size of a page."""
+    """Removes unused pages, because damage to them has no effect, and merges the WAL. Returns the size of a page in bytes."""
     database = sqlite3.connect(catalogue)
     database.execute("VACUUM")
     database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
@@ -59,7 +59,7 @@ def flip_bit(content, page, size, dice):
 
 
 def visit(daemon, token, files):
-    """Asks for everything that comes from the catalogue. Returns whether all models are served."""
+    """Sends requests that read the catalogue, and one that changes it. Returns whether all models are served."""
     client, visitor, served = Client(daemon, token), Client(daemon, ""), 0
     visitor.bearer = {}
     for path in ("/api/v1/models?drafts=true&limit=50&q=torus", "/api/v1/models", "/api/v1/jobs", "/api/v1/tokens"):
@@ -81,14 +81,14 @@ def refusal(code, text):
 
 
 def outcome(binaries, data, token, files):
-    """Starts the daemon on damaged data. Returns its reaction in a word."""
+    """Starts the daemon on damaged data. Returns one word that describes its reaction."""
     try:
         daemon = Daemon(binaries, data)
     except Ended as ended:
         return refusal(ended.code, ended.text)
     try:
         all_served = visit(daemon, token, files)
-    except Gone:  # it may refuse after it listens, but before it serves
+    except Gone:  # the daemon may end after it has opened its port, but before it serves
         daemon.end()
         return refusal(daemon.process.returncode, daemon.printed[-1])
     except BaseException:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Uploads models whose JPEG, WebP or PNG textures are damaged. Jobs make models without them, and the daemon lives.
+"""Uploads models whose JPEG, WebP or PNG textures are damaged. Jobs must make models without textures; the daemon must survive.
 
 usage: pictures.py BINARIES [DAMAGES [SEED]]
 
-Each texture is cut and its bits are flipped at DAMAGES (3) places of its bytes each, the first of which are in its header.
-Pictures of kinds that are not read, such as TIFF, count as damaged. Prints the random seed and how the jobs ended.
+For each texture, makes DAMAGES (default 3) shortened copies and as many copies with flipped bits. Pictures in formats that
+the reader does not support, such as TIFF, count as damaged. Prints the random seed and how the jobs ended.
 """
 import collections
 import json
@@ -20,7 +20,7 @@ from disk import is_served, job_of, upload
 
 CORPUS = Path(__file__).resolve().parents[1] / "fuzz/corpus/decode_picture"
 PICTURES = ("jpeg", "webp_lossy", "webp_lossless", "png")
-HEADER = 32  # bytes at the start of a picture in which half of the damages are
+HEADER = 32  # number of bytes at the start of a picture; at least half of the damages are among them
 FOREIGN = {"TIFF": b"II*\0\x08\0\0\0" + bytes(64), "big-endian TIFF": b"MM\0*\0\0\0\x08" + bytes(64), "GIF": b"GIF89a" + bytes(64),
            "nothing": bytes(64)}
 
@@ -54,7 +54,7 @@ def glb(picture):
 
 
 def damaged(content, count, dice):
-    """Yields `count` shortened copies of a picture, and as many with some flipped bits."""
+    """Yields `count` shortened copies of a picture, and `count` copies with some flipped bits."""
     for number in range(count):
         at = dice.randrange(1, min(HEADER, len(content)) if number % 2 else len(content))
         yield content[:at]
@@ -69,7 +69,7 @@ class Uploads:
         self.client, self.seen = client, collections.Counter()
 
     def model(self, picture, name):
-        """Makes a model with this texture. Returns the model, and whether it has the texture."""
+        """Makes a model from a file with a texture. Returns the model, and whether it has the texture."""
         job = job_of(self.client, upload(self.client, glb(picture))[1], metadata={"title": name})
         assert job["state"] == "done", f"{name} {picture.hex()}: {job}"
         assert is_served(self.client, job["model"]), job

@@ -4,9 +4,10 @@
 
 usage: soak.py BINARIES [HOURS [SEED]]
 
-An operator works as in crash.py. Meanwhile the disk is full at some changes, the clock jumps, and mutated requests and
-frames arrive. Each daemon lives for some minutes, and ends by SIGKILL or SIGTERM. The checks are those of crash.py;
-`vitrine doctor --scrub` finds no damage, and the memory stays below a limit. Prints a line for each daemon.
+An operator works as in crash.py. Meanwhile, some changes of the disk fail as if it were full, the clock jumps, and mutated
+requests and frames arrive. Each daemon runs for some minutes and is ended by SIGKILL or SIGTERM. The script makes the checks
+of crash.py, and checks that `vitrine doctor --scrub` finds no damage and that the daemon's memory stays below a limit.
+Prints a line for each daemon.
 """
 import collections
 import random
@@ -24,9 +25,9 @@ from full_disk import Disk
 from fuzz import OPTIONS, STATUS, Requests, frame, messages, mutated_request, talk
 from mutations import mutated
 
-LIFE = (20, 300)  # seconds that a daemon lives
-PAUSE = 0.5  # seconds between two faults
-MEMORY = 300 << 20  # bytes that the daemon may use
+LIFE = (20, 300)  # shortest and longest time in seconds for which a daemon runs
+PAUSE = 0.5  # time in seconds between two faults
+MEMORY = 300 << 20  # largest resident memory of the daemon, in bytes
 UPGRADE = ("GET /api/v1/models/{}/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: pmesh.v1\r\n\r\n")
 
@@ -36,9 +37,9 @@ class LongWork(Work):
 
 
 class LookAfterFaults(Look):
-    """The checks of crash.py. Asks for each job that was accepted since the last start, since the list of all grows long."""
+    """Makes the checks of crash.py, but asks for each job by its ID, because the list of all jobs would become too long."""
 
-    ended = 0  # number of jobs
+    ended = 0  # number of jobs that have ended
 
     def may_fail(self, error):
         return super().may_fail(error) or "No space left" in error or "is full" in error
@@ -58,7 +59,7 @@ class LookAfterFaults(Look):
 
 
 class Faults:
-    """Faults of one daemon, and hostile visitors of it, who have no token that may change anything."""
+    """Causes random faults of a daemon, and sends hostile requests with a token that permits no changes."""
 
     def __init__(self, daemon, reader, disk, clock, dice):
         self.daemon, self.disk, self.clock, self.dice = daemon, disk, clock, dice
@@ -124,9 +125,9 @@ class Soak:
         self.token, self.reader = new_token(binaries, self.data), new_token(binaries, self.data, "viewer")
 
     def live(self, seconds):
-        """Runs one daemon with faults for some seconds. Returns a line about it."""
+        """Runs one daemon with faults for `seconds` seconds. Returns a line of text about the run."""
         preloaded = f"LD_PRELOAD={self.disk.library}:{self.clock.library}"
-        environment = ["env", *self.disk.environment()[1:], *self.clock.environment[1:], preloaded]  # the last LD_PRELOAD counts
+        environment = ["env", *self.disk.environment()[1:], *self.clock.environment[1:], preloaded]  # the last LD_PRELOAD is the one in effect
         daemon = Daemon(self.binaries, self.data, OPTIONS, environment)
         try:
             self.look.at(Client(daemon, self.token), self.known)

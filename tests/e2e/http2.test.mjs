@@ -20,8 +20,8 @@ import { Nginx } from "./nginx.mjs";
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan } = process.env;
 const seed = Number(process.env.VITRINE_SEED ?? Date.now() % 1_000_000), random = chance(seed);
 const kMutated = Number(process.env.VITRINE_FRAMES ?? 400);
-const kKept = 64; // connections to the daemon that nginx keeps open at most
-const kAtOnce = 8; // mutated connections at a time
+const kKept = 64; // largest number of idle connections to the daemon that nginx keeps open
+const kAtOnce = 8; // number of mutated connections that are open at the same time
 const below = (count) => Math.floor(random() * count);
 let daemon, nginx, session, id, chunks, ca, token;
 
@@ -54,7 +54,7 @@ async function ask(path, fields = {}) {
   return { status: headers[":status"], headers, body: Buffer.concat(await stream.toArray()) };
 }
 
-/** Publishes the model or takes it back. */
+/** Publishes or unpublishes the model. `verb` is "publish" or "unpublish". */
 async function change(verb) {
   assert.equal((await ask(`/api/v1/models/${id}/${verb}`, { ":method": "POST", authorization: `Bearer ${token}` })).status, 200);
 }
@@ -97,7 +97,7 @@ test("a withdrawn model's chunk is gone once purged, and comes back once it is p
   assert.deepEqual(now.body, first.body);
 });
 
-/** Returns a frame (RFC 9113, section 4.1). */
+/** Returns an HTTP/2 frame (RFC 9113, section 4.1). */
 function frame(type, flags, stream, payload = Buffer.alloc(0)) {
   const head = Buffer.alloc(9);
   head.writeUIntBE(payload.length, 0, 3);
@@ -109,13 +109,16 @@ function frame(type, flags, stream, payload = Buffer.alloc(0)) {
 
 const text = (words) => Buffer.concat([Buffer.from([words.length]), Buffer.from(words)]);
 
-/** Returns header fields as HPACK (RFC 7541) without compression. */
+/** Returns the header fields of a request, coded by HPACK (RFC 7541) without Huffman codes. */
 function fields(method, path, more = {}) {
   const literals = Object.entries(more).map(([name, value]) => Buffer.concat([Buffer.from([0]), text(name), text(value)]));
   return Buffer.concat([Buffer.from([method === "GET" ? 0x82 : 0x83, 0x87, 0x01]), text("localhost"), Buffer.from([0x04]), text(path), ...literals]);
 }
 
-/** Returns the frames of a valid connection: requests with and without a body, a reset stream, and all that steers. */
+/**
+ * Returns the frames of a valid connection: requests with and without a body, a reset stream, and
+ * the control frames SETTINGS, WINDOW_UPDATE, PING, PRIORITY and GOAWAY.
+ */
 function valid() {
   const upload = { authorization: `Bearer ${token}`, "tus-resumable": "1.0.0", "upload-length": "8" };
   const order = { authorization: `Bearer ${token}`, "content-type": "application/json" };
@@ -128,7 +131,10 @@ function valid() {
     frame(1, 1, 11, fields("GET", "/api/v1/models")), frame(9, 4, 11, Buffer.from([0, 1, 97, 1, 98])), frame(7, 0, 0, Buffer.alloc(8))];
 }
 
-/** Returns the frames after random changes: frames left out, repeated or swapped, and bytes flipped, replaced or cut off. */
+/**
+ * Returns the bytes of the frames after random changes. Frames may be removed, repeated, reversed
+ * or inserted. Bytes may be replaced or cut off.
+ */
 function mutated(frames) {
   const changed = [...frames], at = 1 + below(frames.length - 1);
   const kinds = [() => changed.splice(at, 1), () => changed.splice(at, 0, ...Array(1 + below(30)).fill(changed[at])), () => changed.reverse(),
@@ -139,7 +145,7 @@ function mutated(frames) {
   return bytes.subarray(0, random() < 0.2 ? below(bytes.length) : bytes.length);
 }
 
-/** Sends bytes on a connection of their own, and waits until nginx has ended it. */
+/** Sends the bytes on a new connection, and waits until nginx has closed the connection. */
 async function send(bytes) {
   const socket = connect({ port: nginx.port, host: "127.0.0.1", servername: "localhost", ca, ALPNProtocols: ["h2"] });
   socket.on("error", () => undefined).resume().end(bytes);

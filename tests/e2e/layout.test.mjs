@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the page of an object on phones that are held sideways, on paper, from right to left, on a slow line, and in each
-// language. Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS (a folder).
+// Tests the page of an object on phones that are held sideways, in print, in a right-to-left
+// layout, on a slow connection, and in each language. Environment: VITRINE_BIN, VITRINE_MODEL (an
+// OBJ file), VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { mkdir, readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -26,7 +27,7 @@ after(async () => {
   await daemon?.stop();
 });
 
-/** Opens the object's page and waits until its tools are there. */
+/** Opens the object's page and waits until its tools are loaded. */
 async function equipped(options) {
   const viewer = await ViewerPage.open(browser, url, options);
   await viewer.releaseLayers();

@@ -46,8 +46,9 @@ async function open(name, attributes = {}) {
 }
 
 /**
- * Returns what the canvas shows: the mean brightness (0 to 255) and the largest difference between colour channels of opaque pixels,
- * and the number of partly covered, dark pixels, which are those of the shadow and of edges.
+ * Returns what the canvas shows: `brightness`, the mean brightness of the opaque pixels (0 to 255);
+ * `colour`, the largest difference between red and blue in an opaque pixel; and `shaded`, the
+ * number of dark, partly transparent pixels. Such pixels belong to the shadow or to edges.
  */
 async function seen(viewer) {
   await viewer.frames();

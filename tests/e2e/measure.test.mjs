@@ -27,7 +27,7 @@ before(async () => {
   await writeStripedBall(ball, { around: 128, up: 64 });
   await promisify(execFile)(join(bin, "vitrine"), ["build", ball, "-o", pmesh]);
   host.add("ball.pmesh", await readFile(pmesh));
-  // From far away, so that the picture is nearly a parallel projection.
+  // The field of view is small and the camera far away, so the projection is nearly parallel.
   viewer = await ViewerPage.open(browser, host.page({
     src: `${host.url}/ball.pmesh`, alt: "Ball", lang: "en", "camera-controls": "", "camera-orbit": "0deg 90deg auto", "field-of-view": "5deg",
   }));
@@ -42,7 +42,10 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-/** Clicks points, given as parts of the ball's radius on the screen from its centre to the right and upwards. */
+/**
+ * Clicks points. Each is given by its offset from the ball's centre on the screen, to the right and
+ * upwards, in radii.
+ */
 async function click(...points) {
   const box = await page.locator("canvas").boundingBox();
   // The ball fills 85 % of the height.
@@ -57,7 +60,7 @@ const near = (value, expected, part = 0.03) => assert.ok(Math.abs(value - expect
 test("three points make an angle, at the second of them", async () => {
   await choose("angle");
   await click([-0.6, 0], [0, 0.6], [0.6, 0]);
-  // The points (-0.6, 0, 0.8), (0, 0.6, 0.8) and (0.6, 0, 0.8) of the unit ball.
+  // On the unit ball, these are the points (-0.6, 0, 0.8), (0, 0.6, 0.8) and (0.6, 0, 0.8).
   near(await result(), 90);
   assert.match(await page.locator(".sheet .result:not(.size)").textContent(), /°$/);
   assert.equal(await page.locator(".ruler").count(), 2);
@@ -94,7 +97,7 @@ test("a profile along a cut is drawn and saved as CSV and SVG", async () => {
   const [head, ...rows] = (await saved("CSV")).trim().split("\r\n");
   assert.match(head, /^distance.*,height/);
   assert.equal(rows.length, 512);
-  // In its middle, the ball is about 0.2 higher than the chord.
+  // The profile is an arc of a circle of radius 1. In its middle, it is about 0.2 above the chord.
   for (const row of rows) {
     const [distance, height] = row.split(",").map(Number), x = distance - chord / 2;
     assert.ok(Math.abs(height - (Math.sqrt(1 - x * x) - Math.sqrt(1 - (chord / 2) ** 2))) < 0.005, row);

@@ -37,7 +37,7 @@ export function countWebGl() {
     const lose = extension.loseContext;
     extension.loseContext = () => (contexts.delete(gl), lose.call(extension));
   });
-  /** Bytes of the pictures of models: of textures with one byte per channel. */
+  /** Returns the number of bytes of the models' pictures, which are the textures with 8 bits per channel. */
   window.pictureBytes = () => [...contexts.values()].flatMap((held) => [...held])
     .reduce((sum, [object, bytes]) => sum + (object instanceof WebGLTexture ? bytes : 0), 0);
   window.webGl = () => {

@@ -79,7 +79,10 @@ async function quarters(viewer) {
   });
 }
 
-/** Waits until the model is lit by the room. Polls, because no event tells that. The room lights the side that the lamp leaves dark. */
+/**
+ * Waits until the model is lit by the room. Polls, because no event reports it. Without the room, the side away from
+ * the lamp is dark.
+ */
 async function inRoom(viewer) {
   for (;;) {
     const [left, right] = await quarters(viewer);
@@ -102,8 +105,8 @@ function countPictures() {
 }
 
 /**
- * Performs `action` in the page, and records all frames until the event `type`, and 30 more. Returns the mean difference of
- * each frame's pixels from those of the last frame, 0 to 255.
+ * Performs `action` in the page, and records all frames up to the event `type`, and 30 later ones. Returns the mean
+ * difference of each frame's pixels from those of the last frame, 0 to 255.
  */
 function differences(viewer, type, action) {
   return viewer.page.locator("progressive-mesh").evaluate(async (element, [end, text]) => {
@@ -124,7 +127,10 @@ function differences(viewer, type, action) {
   }, [type, action]);
 }
 
-/** Checks that no frame is farther from the last one than the frame before it, but for noise. */
+/**
+ * Checks that the frames approach the last one: no frame differs more from the last frame than its
+ * predecessor does, except for noise.
+ */
 function assertSteady(seen) {
   assert.ok(seen.length > 1, "something changes");
   for (let i = 1; i < seen.length; ++i) assert.ok(seen[i] <= seen[i - 1] + 0.05, `frame ${i} goes back: ${seen}`);
@@ -173,7 +179,7 @@ describe("a textured model", () => {
       const canvas = document.querySelector("progressive-mesh").shadowRoot.querySelector("canvas");
       window.losing = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
     });
-    // Holds the answer until the context is lost.
+    // Withholds the response until the graphics context is lost.
     const asked = new Promise((resolve) => viewer.page.context().route("**/ball.pmesh", (route) => resolve(route)));
     await viewer.page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("max-texture"));
     const route = await asked, requests = fetches();

@@ -45,13 +45,16 @@ async function drawn(viewer) {
 /** Waits until the viewer announces a text that contains `words`. */
 const heard = (viewer, words) => viewer.page.locator("[role=status]", { hasText: words }).waitFor({ state: "attached" });
 
-/** Returns what the link to the current view says. */
+/** Returns the fragment of the link to the current view. */
 async function cameraOf(viewer) {
   await viewer.sheet("save");
   return viewer.page.locator("input[name=link]").inputValue().then((link) => new URL(link).hash);
 }
 
-/** Waits until the viewer has reset itself, as in a kiosk whose visitor has left. The light must not be the initial one. */
+/**
+ * Makes the viewer reset itself, as in a kiosk whose visitor has left, and waits for the reset.
+ * Before, the light must not be the initial one.
+ */
 async function idle({ page }) {
   await page.locator("progressive-mesh").evaluate((element) => element.setAttribute("idle-reset", "0.1"));
   await page.locator("canvas").press("ArrowLeft");
@@ -261,7 +264,7 @@ describe("on a wide, light page", () => {
     await viewer.sheet("light");
     await page.locator("label:has([value=studio])").click();
     await idle(viewer);
-    assert.equal(await cameraOf(viewer), home.replace("&note=1", "")); // the note that the test before has chosen
+    assert.equal(await cameraOf(viewer), home.replace("&note=1", "")); // an earlier test has selected this note
   });
 
   test("axe finds no fault, whatever is open", async () => {

@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 
-ROUND = 300  # seconds
+ROUND = 300  # duration of a round, in seconds
 
 
 def fuzz(seconds, command):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that the originals of random textured meshes come back to the bit.
+// Tests that the original materials and texture coordinates of random meshes are restored exactly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace vitrine::test {
 namespace {
 
-// Returns a float of any finite bits, or one that a real file would have.
+// Returns a finite float. It has random bits, or is a value that may occur in a real file.
 float random_float(Dice& dice) {
   const auto any = std::bit_cast<float>(static_cast<std::uint32_t>(dice.bits()));
   if (dice.one_in(3) && std::isfinite(any)) return any;
@@ -62,7 +62,8 @@ Material random_material(Dice& dice, std::size_t pictures, std::size_t sets) {
   return material;
 }
 
-// Returns a texturing in which most corners at a vertex agree, and some are on seams.
+// Returns a texturing in which the corners at a vertex usually have the same coordinates. A few
+// have others, as at seams.
 Texturing random_texturing(const LatticeMesh& mesh, Dice& dice) {
   Texturing out;
   const std::size_t sets = 1 + dice.below(2), pictures = 1 + dice.below(4);
@@ -96,7 +97,7 @@ Refiner refined(const StoredModel& model) {
   return refiner;
 }
 
-// Returns the model with originals, which belong to the faces of `mesh`.
+// Adds originals to the model: `texturing`, whose faces are those of `mesh`.
 StoredModel with_originals(StoredModel model, const LatticeMesh& mesh, const Texturing& texturing) {
   const auto begin = model.file.begin() + static_cast<std::ptrdiff_t>(model.manifest.base_offset);
   std::vector<std::uint8_t> body(begin, model.file.end());
@@ -134,7 +135,8 @@ TEST(Originals, OfRandomTexturedMeshesComeBackToTheBit) {
   }
 }
 
-// Changes or cuts the description and gives it the right hash.
+// Changes or truncates the stored description of the originals and corrects its hash. Expects that
+// reading it gives an error or a result, but no crash.
 void expect_no_crash(std::uint64_t seed) {
   Dice dice(seed);
   const StoredModel plain = store_model(random_mesh(seed, 40), {.target_vertices = 8});

@@ -36,7 +36,7 @@ struct FakeScanner {
   std::atomic<std::uint64_t> stops{0}, allowed{0};
   std::atomic<int> calls{0}, steps{0}, calibrations{1}, damaged{0};
   std::atomic<double> degrees{0};
-  PowerRecord power;         // both are off at first
+  PowerRecord power;         // state of laser and motor; both are off at first
   std::atomic<int> kept{0};  // number of calls of keep_laser()
 
   FakeScanner() { power.both_off(); }
@@ -46,7 +46,7 @@ struct FakeScanner {
   }
 };
 
-inline constexpr std::size_t kFakePoints = 10;  // points per step
+inline constexpr std::size_t kFakePoints = 10;  // number of points that each step of a scan adds
 
 class FakeView final : public ScanView {
  public:

@@ -21,10 +21,10 @@ inline constexpr HeapBound kDecodingHeap{1 << 20, 2'500};
 // undo, and a face may have three wedges of its own.
 inline constexpr HeapBound kDecodingTextureHeap{1 << 20, 9'500};
 
-// The bound in base_decoder.h, plus messages.
+// The bound in base_decoder.h, plus the memory for error messages.
 inline constexpr HeapBound kBaseHeap{4 << 10, 1'000};
 
-// The bound in read_mesh.h, plus a reader's own buffers and messages.
+// The bound in read_mesh.h, plus the memory for a reader's own buffers and messages.
 inline constexpr std::size_t kReaderAlways = 8 << 10;
 inline constexpr HeapBound kReadingHeap{kReaderAlways, 64};
 inline constexpr HeapBound kReadingGlbHeap{kReaderAlways, 128};

@@ -11,8 +11,8 @@
 
 namespace vitrine::test {
 
-// Returns a torus of `around` times `across` quads, wrapped once in a picture of `side` x `side`
-// pixels. The picture has smooth colours, without opacity below 255.
+// Returns a torus of `around` times `across` quads, with one picture of `side` x `side` pixels. The
+// picture has smooth colours, without opacity below 255.
 inline ImportedMesh textured_torus(std::uint32_t around, std::uint32_t across, std::uint32_t side) {
   Picture picture{side, side, {}};
   for (std::uint32_t y = 0; y < side; ++y) {

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 find_program(VITRINE_NPM npm)
 
-# vitrine_npm_packages(stamp "Web client"): installs the packages of the current folder's package-lock.json
-# into its node_modules. Sets the variable named by `stamp` to the file that is written last.
+# vitrine_npm_packages(stamp "Web client"): installs the packages of the current folder's
+# package-lock.json into its node_modules. Sets the variable named `stamp` to the file that the
+# installation writes last.
 function(vitrine_npm_packages stamp what)
   if(NOT VITRINE_NPM)
     message(FATAL_ERROR "npm is missing: ./deploy/setup installs it")

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A heap that replaces that of wasi-libc, which has ten times as much code. It uses best fit and
-// merges adjacent free blocks. Memory grows by at least a sixteenth at a time, because browsers
+// A heap that replaces that of wasi-libc, which has ten times as much code. Allocates by best fit
+// and merges adjacent free blocks. Memory grows by at least a sixteenth at a time, because browsers
 // collect garbage each time memory grows.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
 
-extern "C" char __heap_base;  // from the linker: first byte after data and stack
+extern "C" char __heap_base;  // set by the linker: first byte after data and stack
 
 namespace {
 
@@ -21,8 +21,8 @@ struct Block {
   std::size_t size_before;  // size of the preceding block in memory
   // Size in bytes, including both size members. The lowest bit is set while the block is in use.
   std::size_t size;
-  // If the block is in use, the allocation begins at `next`. If it is free, `next` and `last` are
-  // its links in the free list.
+  // If the block is in use, the allocation begins at the address of `next`. If it is free, `next`
+  // and `last` are its links in the free list.
   Block* next;
   Block* last;
 

@@ -17,7 +17,7 @@ std::string ModelUrl::resource() const {
 }
 
 Expected<ModelUrl> parse_model_url(std::string_view url) {
-  // std::regex recurses: a longer text could overflow the stack.
+  // Longest accepted text. std::regex is recursive, so a longer text could overflow the stack.
   constexpr std::size_t kLongest = 2048;
   static const std::regex kModel(
       R"((https?)://(?:\[([0-9a-fA-F:.]+)\]|([^/:@?#\s]+))(?::([0-9]{1,5}))?((?:/[^?#\s]*)?)/models/([0-9a-z]+)/?(?:[?#]\S*)?)");

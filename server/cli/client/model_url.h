@@ -12,7 +12,7 @@ namespace vitrine::server {
 // The address of a model's stream.
 struct ModelUrl {
   std::string host;           // a name or an address, without brackets
-  std::string port;           // decimal
+  std::string port;           // number of the port, in decimal digits
   std::string target;         // the path of the stream, without a query
   bool is_encrypted = false;  // whether the URL begins with https
 

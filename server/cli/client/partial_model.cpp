@@ -34,7 +34,7 @@ Expected<PartialModel> PartialModel::open(std::filesystem::path path) {
   return model;
 }
 
-// Continues with the content of an existing file. Content that has no valid head will be
+// Continues with the content of an existing file. If the content has no valid head, it will be
 // overwritten.
 Expected<void> PartialModel::take_up() {
   struct stat status {};
@@ -146,7 +146,8 @@ Expected<void> PartialModel::set_head(const Bytes& head) {
   auto manifest = parse_header(head);
   if (!manifest) return wrong("sends a malformed head");
   if (!is_intact_head(*manifest, head)) return wrong("sends a damaged head");
-  // If the file already has a head, it is the same one: the file's name contains the model's hash.
+  // An existing head cannot differ from this one, because the file's name contains the model's
+  // hash.
   if (manifest_) return {};
   if (::ftruncate(file_.get(), 0) != 0 ||
       ::ftruncate(file_.get(), static_cast<off_t>(manifest->file_bytes)) != 0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A model that is being fetched. It is kept in a .pmesh file of full length in which missing chunks
-// and pictures are holes. Hashes show which of them the file contains, so a fetch can continue
-// after any interruption.
+// and pictures are holes. Hashes show which chunks and pictures the file contains, so a fetch can
+// continue after any interruption.
 #pragma once
 
 #include <filesystem>
@@ -36,14 +36,14 @@ class PartialModel {
 
   // Adds a slice from an untrusted server. Fails with kBadInput if the slice fits no chunk of the
   // model or comes out of order, or if the chunk's hash is wrong. Allocates at most the chunk's
-  // length, or kMaxHead.
+  // length, or kMaxHead for the head.
   Expected<void> add(const SliceHeader& header, std::span<const std::uint8_t> payload);
 
   // Adds picture number `i` of the texture, from an untrusted server. Fails with kBadInput if its
   // hash is wrong.
   Expected<void> add_picture(std::size_t i, std::span<const std::uint8_t> bytes);
 
-  // Whether an optional block is complete. Reads it.
+  // Whether an optional block is complete. Reads the block from the file to find out.
   bool holds(const OptionalBlock& block) const;
   // Adds an optional block, like add_picture().
   Expected<void> add(const OptionalBlock& block, std::span<const std::uint8_t> bytes);

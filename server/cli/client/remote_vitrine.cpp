@@ -14,10 +14,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Largest number of upload bytes per request, since proxies limit the size of requests.
+// Largest number of upload bytes per request. It is limited because proxies limit the size of
+// requests.
 constexpr std::size_t kPiece = 16 << 20;
-constexpr int kTries = 6;                                // attempts per request, within 31 seconds
-constexpr std::chrono::milliseconds kBetweenLooks{250};  // interval at which a job's state is read
+constexpr int kTries = 6;  // attempts per request, within 31 seconds
+// interval between two queries of a job's state
+constexpr std::chrono::milliseconds kBetweenLooks{250};
 
 std::span<const std::uint8_t> body_of(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -43,8 +45,8 @@ bool may_be_better_soon(const RemoteAnswer& answer) {
   return answer.status == 409 || answer.status == 429 || answer.status >= 500;
 }
 
-// Repeats the request while the server cannot be reached or temporarily refuses it, since the
-// server may be restarting. Returns the last result.
+// Repeats the request as long as the server cannot be reached or temporarily refuses it, because
+// the server may be restarting. Returns the last result.
 template <class Ask>
 Expected<RemoteAnswer> with_retries(const Ask& ask) {
   for (int tried = 1;; ++tried) {

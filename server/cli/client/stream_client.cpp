@@ -34,7 +34,7 @@ constexpr std::chrono::milliseconds kFirstPause{200}, kLongestPause{3000};
 constexpr std::size_t kMaxServerMessage = 64 * 1024;
 constexpr unsigned kSwitchingProtocols = 101;
 
-// How a connection ended.
+// How a connection ended: the request was met, or the connection was lost.
 enum class End { kDone, kLost };
 
 bool is_retried(unsigned status) {
@@ -119,8 +119,8 @@ class Fetching {
     return headers;
   }
 
-  // Connects `stream` to the server. Returns false if the server is unreachable now, and an error
-  // if another attempt cannot help.
+  // Connects `stream` to the server. Returns false if the server is unreachable at the moment, and
+  // an error if another attempt cannot help.
   asio::awaitable<Expected<bool>> reach(std::shared_ptr<ByteStream> stream) {
     asio::steady_timer deadline(io_, kResponseTimeout);
     deadline.async_wait([weak = std::weak_ptr(stream)](boost::system::error_code cancelled) {
@@ -230,8 +230,8 @@ class Fetching {
     co_return true;
   }
 
-  // Returns the detail target to request. If the target is in seconds, subtracts the time that has
-  // passed.
+  // Returns the detail target to send. If the target is a time in seconds, subtracts the time that
+  // has passed.
   DetailTarget target() const {
     if (!options_.target) return Want(WantLevel{UINT32_MAX});
     const auto* timed = std::get_if<WantSeconds>(&*options_.target);

@@ -27,9 +27,9 @@ struct FetchOptions {
 
 struct Fetched {
   PartialModel model;
-  double seconds = 0;          // duration from the first connection until the request was met
+  double seconds = 0;          // time from the first connection until the request was met
   std::uint64_t received = 0;  // payload bytes received in this run
-  std::optional<PromiseMessage> promise;  // the newest promise of the server
+  std::optional<PromiseMessage> promise;  // the last `promise` message of the server
 };
 
 // Fetches a model. Connects again if the server stops (close code 1012) or the connection is lost,

@@ -106,7 +106,7 @@ CommandOutcome check_outputs(const Arguments& arguments) {
   }
   if (page == kStandardStream) return misused("--report cannot be standard output; name a file");
   using std::filesystem::weakly_canonical;
-  std::error_code unknown;  // ignored: writing the outputs will report it
+  std::error_code unknown;  // ignored: writing the outputs will report the error
   if (outputs.size() == 2 &&
       weakly_canonical(outputs[0], unknown) == weakly_canonical(outputs[1], unknown)) {
     return misused("-o and --report name the same file; choose another name for the report");
@@ -114,7 +114,7 @@ CommandOutcome check_outputs(const Arguments& arguments) {
   return {};
 }
 
-// If a report is also made, the build takes this share of the whole time.
+// Share of the whole progress that the build takes if a report is made as well.
 constexpr double kBuilt = 0.25;
 
 // Returns a progress report for one part of the work. It converts the part's progress from 0..1 to
@@ -165,7 +165,7 @@ CommandOutcome check_name(const Arguments& arguments) {
       "the output's name must end in .pmesh; vitrine decode then writes meshes from that file");
 }
 
-// Returns the folder of the file for data that exceed the memory.
+// Returns the folder for the file that holds data for which memory does not suffice.
 std::filesystem::path spill_folder(const std::string& out) {
   std::error_code unknown;  // ignored: the path is then empty, and all data stay in memory
   return out == kStandardStream ? std::filesystem::temp_directory_path(unknown) : folder_of(out);

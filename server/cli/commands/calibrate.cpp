@@ -92,8 +92,8 @@ Expected<acquisition::CalibrationInput> take_pictures(const acquisition::Scanner
                         [&](double share) { report("pictures of the target", share); });
 }
 
-// Returns a line about the points and pictures that were not used. The line is for a calibration
-// from pictures; a calibration from measured points uses all of its points.
+// Returns a line about the points and pictures that were not used. Only a calibration from pictures
+// needs this line; a calibration from measured points uses all of its points.
 std::string left_out(const acquisition::CalibrationReport& report) {
   return fmt::format(
       "left out: {} points off the line ({:.2f} %), {} pictures without a clear line\n",
@@ -162,7 +162,8 @@ CommandOutcome run_calibrate(const Arguments& arguments) {
     return print(as_text(*stored, calibrated->report, has_pictures, plot));
   }
   json object = json::parse(acquisition::report_json(*stored, calibrated->report), nullptr, false);
-  object.update({{"rms", stored->residuals.rms},  // residuals in mm, over held-out poses
+  // residuals in mm, of the poses that were not used for the fit
+  object.update({{"rms", stored->residuals.rms},
                  {"p95", stored->residuals.p95},
                  {"max", stored->residuals.max},
                  {"residual_plot", plot}});

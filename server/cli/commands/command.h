@@ -12,11 +12,11 @@ namespace vitrine::server::cli {
 
 struct Command {
   std::string_view name;
-  std::string_view summary;       // one sentence, for the list of commands
+  std::string_view summary;       // one sentence, shown in the list of commands
   std::string_view details = {};  // further sentences for --help
   std::span<const std::string_view> operands = {};
-  std::span<const Flag> flags;     // all flags but --help, which every command has
-  std::string_view examples = {};  // lines to type, for --help
+  std::span<const Flag> flags;     // all flags except --help, which every command has
+  std::string_view examples = {};  // command lines, shown by --help
   CommandOutcome (*run)(const Arguments& arguments);
 };
 

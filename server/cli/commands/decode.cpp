@@ -30,7 +30,7 @@ std::uint64_t bytes_used(const Refiner& refiner) {
 struct Export {
   std::string out;
   ExportKind kind;
-  std::optional<std::uint32_t> texture_side;  // pixels; see pictures_to_export()
+  std::optional<std::uint32_t> texture_side;  // in pixels; see pictures_to_export()
   ExportChoices choices;
   bool has_originals;  // whether to write the originals instead of the display atlas
 };
@@ -94,7 +94,7 @@ tl::expected<std::string, Fault> name_of_output(const Arguments& arguments) {
       fmt::format("one of {},{}", std::string_view(kExportChoice), std::string_view(kZipChoice)));
 }
 
-// Writes the product to the file of -o, with its companions beside that file, or to standard
+// Writes the product to the file named by -o, with its companions beside that file, or to standard
 // output.
 CommandOutcome write_product(const Arguments& arguments, Product& product) {
   const std::string out = arguments.text("-o");

@@ -105,8 +105,8 @@ tl::expected<Order, Fault> read_order(const Arguments& arguments) {
   return order;
 }
 
-// Returns the number of bytes to fetch. If `target` is a number of bytes, returns that number.
-// Otherwise counts all bytes up to the coarsest level that meets `target`.
+// Returns the number of bytes to fetch for `target`. If it is a number of bytes, returns that
+// number. Otherwise returns the size of the file up to the coarsest level that meets `target`.
 double bytes_for(const Manifest& m, const std::optional<DetailTarget>& target) {
   const auto* want = target ? std::get_if<Want>(&*target) : nullptr;
   if (want == nullptr) return static_cast<double>(m.file_bytes);
@@ -137,7 +137,7 @@ class FetchBar {
   explicit FetchBar(const std::optional<DetailTarget>& target) : target_(target) {}
 
   void show(const PartialModel& model) {
-    // Counts the triangles only once per interval, since counting examines every chunk.
+    // Counts the triangles at most once per interval, because counting examines every chunk.
     constexpr std::chrono::milliseconds kInterval{100};
     const auto now = Clock::now();
     if (now - shown_ < kInterval) return;
@@ -259,7 +259,7 @@ CommandOutcome fetch_model(const Arguments& arguments) {
   }
   auto report = write_out(arguments, model, *order);
   if (!report) return tl::unexpected(report.error());
-  std::error_code kept;  // ignored: if the file stays, the next run uses it
+  std::error_code kept;  // ignored: if the file remains, the next run continues with it
   fs::remove(model.path(), kept);
   (*report)["bytes"] = model.bytes();
   (*report)["received_bytes"] = fetched->received;

@@ -18,9 +18,10 @@ namespace {
 using acquisition::PoseScan;
 using nlohmann::json;
 
-// Returns the mesh of a stored scan, made as its request says, and its sight lines.
+// Returns the mesh of a stored scan, built with the options of the scan's request, and its sight
+// lines.
 Expected<PoseScan> read_pose(const std::string& path, const std::filesystem::path& calibrations) {
-  constexpr std::size_t kLines = 2'000;  // points with sight lines
+  constexpr std::size_t kLines = 2'000;  // number of points with sight lines
   const auto folder = acquisition::ScanFolder::open(path);
   if (!folder) return tl::unexpected(folder.error());
   const auto record = folder->record();

@@ -104,8 +104,8 @@ std::string as_text(const json& info, const Manifest& m) {
       m.has(Semantic::kColour) ? ", coloured" : "", texture_text(info["texture"]), levels_text(m));
 }
 
-// Describes how much of a truncated file is present. Such a file is a coarser model. Returns an
-// empty text for a complete file.
+// Describes how much of a truncated file is present. A truncated file is a valid, coarser model.
+// Returns an empty text for a complete file.
 std::string what_is_here(const Manifest& m, std::uint64_t here) {
   if (here >= m.file_bytes) return "";
   if (here < m.head_bytes())

@@ -92,11 +92,11 @@ std::string likeness(const json& r) {
   return fmt::format("PSNR: {}\nSSIM: {:.4f}", psnr, r["ssim"].get<double>());
 }
 
-// A way to compare two surfaces, for example by their distance.
+// One way to compare two surfaces, for example by their distance.
 struct Measure {
   std::function<Expected<Product>(SurfaceInput a, SurfaceInput b)> compare;
   std::string (*as_text)(const json& report);
-  SurfaceParts parts = SurfaceParts::kShape;  // the parts that `compare` needs
+  SurfaceParts parts = SurfaceParts::kShape;  // parts of the models that `compare` needs
 };
 
 struct MapTarget {
@@ -196,7 +196,7 @@ tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
   return Measure{compare_looks, likeness, SurfaceParts::kLooks};
 }
 
-// A surface's file, and the files beside it that contain the required parts.
+// The file of a surface, and those files beside it that hold required parts, such as pictures.
 class MeasuredFile {
  public:
   MeasuredFile(std::string name, InputFile file, SurfaceParts parts)

@@ -30,8 +30,8 @@ void print_repairs(const std::string& path, const nlohmann::json& repairs) {
     print_note(fmt::format("{}: {}", path, repair.get<std::string>()));
 }
 
-// Returns the .pmesh file to publish. Builds it if the input is a mesh. A .pmesh input may come
-// from anyone, so this function first decodes the whole file as a check.
+// Returns the .pmesh file to publish. Builds it if the input is a mesh. If the input is a .pmesh,
+// first decodes all of it as a check, because the file may be damaged or hostile.
 tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path,
                                       const ReadOptions& reading, const SpillOptions& spill) {
   const auto task = [&](const ProgressReport& progress) -> Expected<Product> {
@@ -60,8 +60,8 @@ tl::expected<InputFile, Fault> open_input(const Arguments& arguments) {
   return std::move(*file);
 }
 
-// Returns the bytes to upload. If a mesh refers to files beside it, builds the .pmesh file here,
-// since the server cannot open those files.
+// Returns the bytes to upload. If a mesh refers to files beside it, builds the .pmesh file on this
+// machine, because the server cannot open those files.
 tl::expected<Bytes, Fault> bytes_to_send(const InputFile& file, const std::string& path,
                                          ReadOptions reading) {
   const CompanionFiles companions(path, file.bytes());

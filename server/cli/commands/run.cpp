@@ -106,8 +106,8 @@ CommandOutcome dispatch(std::span<const std::string_view> words) {
   return command == nullptr ? unknown_command(words[0]) : run_command(*command, words.subspan(1));
 }
 
-// Runs the command, and returns a failure if the command throws. Because the exception is caught
-// here, destructors run, which switch off laser and motor.
+// Runs the command, and returns a failure if it throws. Catching the exception here ensures that
+// destructors run, which switch off laser and motor.
 CommandOutcome dispatch_and_catch(std::span<const std::string_view> words) {
   try {
     return dispatch(words);

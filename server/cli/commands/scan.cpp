@@ -63,7 +63,7 @@ acquisition::ScanStatus follow(acquisition::Scan& scan) {
     const acquisition::ScanStatus status = scan.wait(kLook);
     if (!is_running(status.state)) return status;
     if (StopSignals::arrived())
-      // The error is ignored: a scan that is meshing cannot be paused, but ends by itself.
+      // The error is ignored: a scan that is being meshed cannot be paused, but it ends by itself.
       (void)scan.pause();
     if (!status.note.empty() && status.note != note) print_note(status.note);
     note = status.note;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A temporary copy of the catalogue in a data folder. The doctor opens the copy, because opening
-// the original would migrate its tables if an older daemon made them.
+// the original would migrate its tables if an older daemon had created them.
 #pragma once
 
 #include <fmt/core.h>

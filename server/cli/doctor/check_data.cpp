@@ -49,7 +49,7 @@ Finding check_disk(const fs::path& data) {
   const double all = static_cast<double>(disk.f_blocks) * block;
   const std::string detail =
       fmt::format("{:.1f} GB free of {:.1f} GB", free / kGigabyte, all / kGigabyte);
-  // File systems that do not count files report a total of 0.
+  // A total of 0 means that the file system does not count files.
   const bool no_names = disk.f_files > 0 && disk.f_favail == 0;
   if (free < 0.1 * kGigabyte || no_names)
     return {Verdict::kFail, "disk", detail, "free some space: no more models can be published"};

@@ -61,7 +61,7 @@ Findings check_objects(const InstallationPlace& place) {
 Findings check_integrity(const InstallationPlace& place) {
   std::error_code unknown;
   if (place.catalogue.empty() && !std::filesystem::exists(place.folder / kCatalogueFile, unknown))
-    return {};  // another finding reports this
+    return {};  // another finding reports this fault
   Findings findings = check_catalogue_integrity(place);
   for (Finding& finding : check_objects(place))
     findings.push_back(std::move(finding));

@@ -72,7 +72,7 @@ Finding check_certificate(const std::string& url, const RemoteAnswer& answer) {
 }
 
 Finding check_date(const RemoteAnswer& answer) {
-  constexpr double kApart = 5;  // largest accepted difference of the clocks, in seconds
+  constexpr double kApart = 5;  // largest accepted difference between the clocks, in seconds
   const std::time_t theirs = curl_getdate(answer.field("date").c_str(), nullptr);
   if (theirs < 0)
     return {Verdict::kWarn, "server clock", "the answer has no Date field",
@@ -129,7 +129,8 @@ Finding check_caching(Probe& probe, const std::string& chunk) {
 }
 
 Finding check_websocket(Probe& probe, const std::string& stream) {
-  // The example key of RFC 6455, section 1.3; the RFC also gives the server's response to this key.
+  // Uses the example key of RFC 6455, section 1.3, because the RFC also states the correct response
+  // to it.
   const auto head = probe.upgrade(
       stream, {"Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13",
                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==", "Sec-WebSocket-Protocol: pmesh.v1"});

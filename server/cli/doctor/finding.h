@@ -13,7 +13,7 @@ enum class Verdict { kOk, kWarn, kFail };
 struct Finding {
   Verdict verdict = Verdict::kOk;
   std::string check;   // one word, such as "disk"
-  std::string detail;  // the observation
+  std::string detail;  // what the check has observed
   std::string advice;  // the next step; empty if the check passed
 };
 

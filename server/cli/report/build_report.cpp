@@ -70,7 +70,7 @@ Expected<std::vector<LevelPicture>> draw_levels(std::span<const std::uint8_t> pm
   return pictures;
 }
 
-constexpr double kDrawn = 0.1;  // progress of the report when all pictures are drawn
+constexpr double kDrawn = 0.1;  // the report's progress once all pictures are drawn
 
 Expected<TriangleMesh> read_original(std::span<const std::uint8_t> input,
                                      const ReadOptions& reading) {

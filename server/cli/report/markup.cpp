@@ -42,7 +42,7 @@ std::string escaped(std::string_view bytes) {
 }
 
 std::string base64(std::span<const std::uint8_t> bytes) {
-  // One more byte, since OpenSSL appends a null byte.
+  // Adds one byte, because OpenSSL appends a null byte.
   std::string out((bytes.size() + 2) / 3 * 4 + 1, '\0');
   const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()), bytes.data(),
                                    static_cast<int>(bytes.size()));

@@ -107,7 +107,7 @@ std::string line(const RateSeries& series, const Axes& axes) {
   return fmt::format("<g class=\"{}\"><path d=\"{}\"/>{}</g>", series.style, path, marks);
 }
 
-// The legend is at the bottom left, where falling curves leave space.
+// Places the legend at the bottom left, where falling curves leave space.
 std::string legend(const std::vector<RateSeries>& series) {
   std::string out;
   double y = kHeight - kBottom - 22.0 * static_cast<double>(series.size());
@@ -142,7 +142,8 @@ std::string rate_plot(const std::vector<RateSeries>& series) {
       fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Error against bytes\">",
                   kWidth, kHeight);
   out += grid(axes);
-  for (auto s = series.rbegin(); s != series.rend(); ++s)  // the first series is drawn last, on top
+  // draws the first series last, so that it is on top
+  for (auto s = series.rbegin(); s != series.rend(); ++s)
     out += line(*s, axes);
   return out + legend(series) + "</svg>";
 }

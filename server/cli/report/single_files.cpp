@@ -78,7 +78,7 @@ void add_files(const TriangleMesh& mesh, const TriangleBvh& original, int most_b
   }
 }
 
-// Returns numbers of faces from `fewest` to `most`, evenly spaced on a logarithmic scale.
+// Returns face counts from `fewest` to `most`, evenly spaced on a logarithmic scale.
 std::vector<double> face_counts(std::size_t fewest, std::size_t most) {
   const auto all = static_cast<double>(most);
   std::vector<double> counts;

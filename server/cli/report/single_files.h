@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the files that one would publish without progressive meshes: one file per level of detail.
+// Makes the files that a museum would publish without progressive meshes: one file per level of
+// detail.
 #pragma once
 
 #include <cstdint>

@@ -13,12 +13,13 @@ inline constexpr Flag kTokenFileFlag = {
     "file that contains the token, so that the list of processes does not show it (default: the "
     "environment variable VITRINE_TOKEN)"};
 
-// Whether the command line names a token, in a flag or a file.
+// Whether the command line states a token, with the flag --token or --token-file.
 bool names_token(const Arguments& arguments);
 
-// Returns the token of --token, else of --token-file, else of the environment variable
-// VITRINE_TOKEN, else an empty text. The command must declare both flags. A usage error if both are
-// given, or if the token is not one word of printable ASCII. A failure if the file cannot be read.
+// Returns the token from --token, from the file of --token-file, or else from the environment
+// variable VITRINE_TOKEN. Returns an empty text if there is none. The command must declare both
+// flags. Returns a usage error if both flags are given, or if the token is not one word of
+// printable ASCII. Returns a failure if the file cannot be read.
 tl::expected<std::string, Fault> access_token(const Arguments& arguments);
 
 }  // namespace vitrine::server::cli

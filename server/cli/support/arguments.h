@@ -22,8 +22,8 @@ struct Flag {
 
 class Arguments {
  public:
-  // Parses the words after the command's name. Accepts `--flag value`, `--flag=value` and, at any
-  // position, the operands, which are the other words. "--" ends the flags. The last operand may be
+  // Parses the words after the command's name. Accepts `--flag value` and `--flag=value`. All other
+  // words are operands, which may be at any position. "--" ends the flags. The last operand may be
   // repeated if its name ends in "...", as in "SCAN...". A usage error names the wrong word, and a
   // similar flag if there is one.
   static tl::expected<Arguments, Fault> parse(std::span<const std::string_view> words,
@@ -34,7 +34,7 @@ class Arguments {
   std::string operand(std::size_t index) const { return operands_[index]; }
   bool has(std::string_view flag) const { return values_.contains(flag); }
   std::string text(std::string_view flag, std::string_view otherwise = "") const;
-  // Returns a usage error: the value of `flag` is not what `wanted` describes.
+  // Returns a usage error: the value of `flag` is not of the kind that `wanted` describes.
   tl::unexpected<Fault> wrong_value(std::string_view flag, std::string_view wanted) const;
 
   // Returns the value as a whole number in [low, high]; nullopt if the flag is absent.

@@ -20,7 +20,7 @@ std::string user_name() {
   return user != nullptr ? user->pw_name : std::to_string(::getuid());
 }
 
-// Returns the number of the user who logged in, which runuser and sudo do not change.
+// Returns the ID of the user who logged in, which runuser and sudo do not change.
 std::string login() {
   constexpr const char* kNobody = "4294967295";
   std::string number;
@@ -45,8 +45,8 @@ Expected<AuditTrail> AuditTrail::open(const std::filesystem::path& folder) {
                             "user, or give that user the file",
                             file.string(), why));
   };
-  // O_NOFOLLOW, because the folder's owner could replace the file by a link to a file that belongs
-  // to root.
+  // Uses O_NOFOLLOW, because the folder's owner could replace the file by a symbolic link to a file
+  // of root.
   const int opened =
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0640);
   if (opened < 0) return refused(std::strerror(errno));

@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSearchedBytes = 1 << 20;
-constexpr std::size_t kMostSearchedJson = 16 << 20;  // bytes; a glTF file may name files at its end
+// Limit in bytes. It is large, because a glTF file may name files at the end of its JSON.
+constexpr std::size_t kMostSearchedJson = 16 << 20;
 
 std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -26,7 +27,8 @@ std::string_view json_of(std::span<const std::uint8_t> glb) {
   return chunks ? chunks->json : std::string_view();
 }
 
-// Converts each line on its own, because several programs may have written them.
+// Converts each line to UTF-8 separately, because different programs may have written the lines in
+// different encodings.
 std::string lines_as_utf8(std::string_view text) {
   std::string out;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -38,8 +40,8 @@ std::string lines_as_utf8(std::string_view text) {
 }
 
 // Returns the part of a file that may name other files. The result is in lower case, because names
-// are compared without regard to case. Each of its lines is UTF-8, as names are. The
-// percent-encoding of glTF is decoded.
+// are compared without regard to case. Converts each line to UTF-8, the encoding of the names.
+// Decodes the percent-encoding of glTF.
 std::string searchable(std::span<const std::uint8_t> bytes) {
   const bool has_uris = is_glb(bytes) || is_gltf(bytes);
   const std::size_t most = has_uris ? kMostSearchedJson : kMostSearchedBytes;
@@ -86,7 +88,7 @@ bool is_buffer_or_picture(const std::string& key) {
 using Filter = bool (*)(const std::string& key);
 
 // Returns the filters in the order of their use. Files that pass one filter may name files that
-// pass the next.
+// pass the next filter.
 std::vector<Filter> filters_of(CompanionKinds kinds) {
   if (kinds == CompanionKinds::kBuffers) return {is_buffer};
   return {is_library, is_buffer_or_picture};
@@ -105,7 +107,7 @@ CompanionFiles::CompanionFiles(const std::string& path, std::span<const std::uin
       const std::string key = companion_key(candidate.filename().string());
       if (!is_wanted(key) || files_.contains(key) || text.find(key) == text.npos) continue;
       auto file = InputFile::open(candidate.string());
-      if (!file) continue;  // the reader reports it as missing
+      if (!file) continue;  // the reader reports the file as missing
       if (is_library(key)) libraries += searchable(file->bytes()) + '\n';
       files_.emplace(key, std::move(*file));
     }

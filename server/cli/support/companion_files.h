@@ -12,16 +12,16 @@
 
 namespace vitrine::server::cli {
 
-// kBuffers: only the .bin files, which contain the shape of a glTF model.
+// kBuffers opens only the .bin files, which contain the shape of a glTF model.
 enum class CompanionKinds : std::uint8_t { kAll, kBuffers };
 
 class CompanionFiles {
  public:
   // Opens the .mtl files in the folder of `path` and its subfolders whose names occur in the first
   // megabyte of `mesh`, or in the JSON of a glTF file. Also opens the .bin files and pictures whose
-  // names occur there or in those .mtl files. If several files have the same name, opens the one in
-  // the folder itself, or else the one in the first subfolder. Opens no files for a package, which
-  // contains its own.
+  // names occur in the same places or in those .mtl files. If several files have the same name,
+  // opens the one in the folder itself, or else the one in the first subfolder. Opens no files for
+  // a package, which contains its own.
   CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh,
                  CompanionKinds kinds = CompanionKinds::kAll);
 
@@ -29,7 +29,7 @@ class CompanionFiles {
   Companions contents() const;
 
  private:
-  std::map<std::string, InputFile> files_;  // keys are results of companion_key()
+  std::map<std::string, InputFile> files_;  // key: companion_key() of the file's name
 };
 
 }  // namespace vitrine::server::cli

@@ -42,9 +42,9 @@ CommandOutcome print_bytes(std::span<const std::uint8_t> bytes) {
 }
 
 void print_fault(std::string_view message) {
-  // A file's name may contain line breaks, and bytes that are not UTF-8.
+  // Removes line breaks and invalid UTF-8, which names of files may contain.
   const std::string line = fmt::format("vitrine: {}\n", as_plain_text(message));
-  std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw on a full disk
+  std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw if the disk is full
 }
 
 void print_note(std::string_view message) {
@@ -75,7 +75,8 @@ ProgressReport ProgressBar::report() {
 void ProgressBar::show(std::string_view stage, double fraction) {
   if (!is_terminal_) return;
   const std::lock_guard lock(mutex_);
-  stage_ = as_plain_text(stage);  // a server may have sent it
+  // removes control characters, because the text may come from a server
+  stage_ = as_plain_text(stage);
   share_ = fraction >= 0 && fraction <= 1 ? fraction : 0;
   shown_ = Clock::now();
   draw();
@@ -90,7 +91,7 @@ void ProgressBar::draw() const {
   const std::string line =
       fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {:3.0f} % {}  {}", "", filled, "", kWidth - filled,
                   100 * share_, stage_, time_left(took.count(), share_, since.count()));
-  // fmt::print would throw if the terminal has been closed.
+  // Uses fwrite, because fmt::print would throw if the terminal has been closed.
   std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);
 }

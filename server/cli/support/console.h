@@ -22,7 +22,7 @@ namespace vitrine::server::cli {
 // Writes `text` and a line break to `stream`. Fails if they cannot be written, for example on a
 // full disk. If the reader has closed the pipe, the failure has no message.
 CommandOutcome print(std::string_view text, std::FILE* stream = stdout);
-// Replaces bytes that are not UTF-8.
+// Prints the object as JSON. Replaces bytes that are not UTF-8.
 CommandOutcome print_json(const nlohmann::json& object, std::FILE* stream = stdout);
 
 // Writes the content of a file to stdout. Fails like print().
@@ -35,8 +35,8 @@ void print_fault(std::string_view message);
 void print_note(std::string_view message);
 
 // Returns the estimated time left, such as "about 40 s left". The share `fraction` (0..1) of the
-// work took `seconds`; `since` seconds have passed since that was measured. Returns an empty text
-// if there is no estimate yet or no work is left.
+// work took `seconds`; `since` seconds have passed since `fraction` was measured. Returns an empty
+// text if there is no estimate yet or no work is left.
 std::string time_left(double seconds, double fraction, double since);
 
 // A progress bar with the estimated time left. It is drawn on stderr, but only if stderr is a

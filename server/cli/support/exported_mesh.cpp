@@ -124,7 +124,8 @@ Expected<Product> exported_originals(const Refiner& refiner, std::span<const std
   if (!texturing) return tl::unexpected(texturing.error());
   const TriangleMesh mesh = refiner.display_mesh();
   const std::size_t pictures = texturing->pictures.size();
-  // Files of glTF have the first set, if only as padding for the second.
+  // glTF numbers its sets consecutively. If only the second set is used, the first one is filled
+  // with zeros.
   if (texturing->coordinates[0].empty()) texturing->coordinates[0].resize(mesh.faces.size());
   auto files = write_textured_mesh(mesh, *std::move(texturing), MeshFormat::kGlb,
                                    stem_of_export(out), options_for(refiner, MeshFormat::kGlb, {}));
@@ -150,7 +151,8 @@ Expected<void> write_export(const Arguments& arguments, const std::string& out, 
     if (auto free = check_output(arguments, path); !free) return free;
     names.push_back(companion.name);
   }
-  // The mesh file comes last, so that it never names a file that is missing.
+  // Writes the mesh file last, so that an existing mesh file never names a companion that is
+  // missing.
   for (const MeshFile& companion : product.companions) {
     const auto path = std::filesystem::path(out).replace_filename(companion.name);
     if (auto ok = write_file_atomically(path, companion.bytes); !ok) return ok;

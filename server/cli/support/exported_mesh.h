@@ -21,7 +21,7 @@ inline constexpr Flag kTextureFlag = {
     "largest width of the texture's pictures; 0: vertex colours instead; default: a size that fits "
     "the detail"};
 
-// A sentence for the help texts.
+// A sentence about the pictures for the commands' help texts.
 inline constexpr FixedText kNoteOnCompanions =
     concatenate("The pictures of a texture are in a .glb, beside other files, or in a zip: OUT.{",
                 kZipChoice, "}.");
@@ -40,7 +40,7 @@ inline constexpr Flag kCompressionFlag = {
     "--compression", "none|meshopt|draco",
     "compression of a .glb, which rounds positions to the level's lattice; default: none"};
 
-// Reads these flags.
+// Reads the three flags above.
 tl::expected<ExportChoices, Fault> read_export_choices(const Arguments& arguments,
                                                        MeshFormat format);
 
@@ -49,25 +49,25 @@ tl::expected<ExportChoices, Fault> read_export_choices(const Arguments& argument
 tl::expected<ExportKind, Fault> read_export_kind(const std::string& out,
                                                  std::string_view others = {});
 
-// Returns the product of an export: the file `out`, and its companions unless it is a zip. Its
-// texture has the pictures of these numbers, which `pmesh` must contain and which have roles of the
-// format. The report has the members faces, vertices and pictures (the number of pictures). If
-// there is a fault, it has the member note with one line for each. Fails (kBadInput) if
-// check_unit() does.
+// Returns the product of an export: the file `out`, and its companions unless it is a zip. The
+// texture has the pictures with the given numbers. `pmesh` must contain these pictures, and the
+// format must support their roles. The report has the members "faces", "vertices" and "pictures"
+// (the number of pictures). If something could not be exported, it also has the member "note", with
+// one line for each such fault. Fails (kBadInput) if check_unit() fails.
 Expected<Product> exported_mesh(const Refiner& refiner, std::span<const std::uint8_t> pmesh,
                                 ExportKind kind, const std::string& out,
                                 std::span<const std::size_t> pictures,
                                 const ExportChoices& choices);
 
-// Returns the product of an export with the originals of the texture instead of its display atlas.
-// `out` is a GLB, and `refiner` is at full resolution. The report has the members of
-// exported_mesh().
+// Returns the product of an export that has the originals of the texture instead of its display
+// atlas. `out` must name a GLB, and `refiner` must be at full resolution. The report has the same
+// members as that of exported_mesh().
 Expected<Product> exported_originals(const Refiner& refiner, std::span<const std::uint8_t> pmesh,
                                      const std::string& out);
 
-// Writes the product's file to `out` and its companions to the same folder. Adds their names to the
-// report, as the member companions. Writes no file if a name is not that of a companion of `out`,
-// or if check_output() refuses a companion.
+// Writes the product's file to `out` and its companions to the same folder. Adds the companions'
+// names to the report, as the member "companions". Writes no file if the name of a companion is not
+// one that an export to `out` has, or if check_output() refuses a companion.
 Expected<void> write_export(const Arguments& arguments, const std::string& out, Product& product);
 
 // Returns the names of the report's companions for a line of text: "" or ", with bust.mtl, ...".

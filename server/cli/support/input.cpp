@@ -25,7 +25,7 @@ Unexpected unreadable(const std::string& path, int error) {
               fmt::format("cannot read {}: {}; {}", path, std::strerror(error), next));
 }
 
-constexpr std::uint64_t kMostOfStream = 4ull << 30;  // bytes of standard input
+constexpr std::uint64_t kMostOfStream = 4ull << 30;  // limit for standard input, in bytes
 
 // Copies standard input into the file `to`. Returns 0, or an errno value: EFBIG if standard input
 // has more than kMostOfStream bytes.
@@ -38,12 +38,12 @@ int copy_standard_input(int to) {
     if (n < 0) return errno;
     const auto size = static_cast<std::size_t>(n);
     if ((copied += size) > kMostOfStream) return EFBIG;
-    // A write to a file in memory is complete unless it fails.
+    // A write to a memory file either fails or is complete.
     if (::write(to, block.data(), size) != n) return errno;
   }
 }
 
-// Returns a file in memory that holds all of standard input.
+// Returns a memory file that holds all of standard input.
 Expected<FileDescriptor> read_standard_input() {
   FileDescriptor file(::memfd_create("standard input", MFD_CLOEXEC));
   const int error = file ? copy_standard_input(file.get()) : errno;
@@ -76,7 +76,7 @@ Expected<InputFile> InputFile::open(const std::string& path) {
     if (!file) return tl::unexpected(file.error());
     return map(file->get(), input_name(path));
   }
-  // O_NONBLOCK: if the path is a named pipe, open() does not wait for a writer.
+  // O_NONBLOCK keeps open() from waiting for a writer if the path is a named pipe.
   const FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!fd) return unreadable(path, errno);
   return map(fd.get(), path);

@@ -11,22 +11,22 @@
 
 namespace vitrine::server::cli {
 
-// The name of standard input, as an input, and of standard output, as an output.
+// The file name that stands for standard input, if it is an input, or for standard output, if it is
+// an output.
 inline constexpr std::string_view kStandardStream = "-";
 
-// Returns how messages name an input: its path, or "standard input".
+// Returns the name of an input in messages: its path, or "standard input".
 std::string input_name(const std::string& path);
 
-// Fails if writing `out` would overwrite the input `path`, since there may be no second copy of a
-// scan.
+// Fails if writing `out` would overwrite the input `path`: there may be no second copy of a scan.
 Expected<void> check_distinct(const std::string& path, const std::string& out);
 
 // A file mapped into memory, read-only.
 class InputFile {
  public:
-  // Maps a file. Fails if it is missing, unreadable or not a regular file (kIo), or empty
-  // (kBadInput). kStandardStream reads standard input to its end into memory; fails (kLimit) if it
-  // has more than 4 GiB.
+  // Maps a file. Fails if the file is missing, unreadable or not a regular file (kIo), or is empty
+  // (kBadInput). If `path` is kStandardStream, reads standard input to its end into memory; this
+  // fails (kLimit) if it has more than 4 GiB.
   static Expected<InputFile> open(const std::string& path);
   // Like open(), but also fails (kBadInput) for a .pmesh file.
   static Expected<InputFile> open_mesh(const std::string& path);

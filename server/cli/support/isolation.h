@@ -15,7 +15,7 @@ namespace vitrine::server::cli {
 struct Product {
   nlohmann::json report;           // the results; isolate() prints each line of the member "note"
   std::vector<std::uint8_t> file;  // content of the output file; may be empty
-  std::string page = {};           // content of the report page; may be empty
+  std::string page = {};           // content of the report page; empty if there is none
   std::vector<MeshFile> companions = {};  // files beside the output file; their names are untrusted
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The result of a command: exit code 0 for success, 1 for failure, 2 for wrong usage, or
+// The result of a command. Its exit code is 0 for success, 1 for failure, 2 for wrong usage, or
 // kNobodyReads.
 #pragma once
 
@@ -16,8 +16,8 @@ struct Fault {
   std::string message;  // one line
 };
 
-// The exit code if the reader of stdout has closed the pipe, as `head` does. Shells report this
-// code for SIGPIPE. No message is printed.
+// The exit code if the reader of stdout has closed the pipe, as `head` does. It equals the code
+// that shells report for a process killed by SIGPIPE. No message is printed in this case.
 inline constexpr int kNobodyReads = 128 + SIGPIPE;
 
 using CommandOutcome = tl::expected<void, Fault>;

@@ -11,7 +11,7 @@ namespace vitrine::server::cli {
 
 Expected<void> check_output(const Arguments& arguments, const std::filesystem::path& out) {
   if (auto writable = check_writable(out); !writable) return writable;
-  std::error_code unknown;  // ignored: writing the file will report it
+  std::error_code unknown;  // ignored: writing the file will report the error
   const bool has_content =
       std::filesystem::exists(out, unknown) && !(std::filesystem::is_regular_file(out, unknown) &&
                                                  std::filesystem::file_size(out, unknown) == 0);

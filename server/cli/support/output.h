@@ -16,8 +16,8 @@ namespace vitrine::server::cli {
 
 inline constexpr Flag kForceFlag = {"--force", "", "replace output files that exist"};
 
-// Checks before the work that `out` can be written. Fails (kIo) if its folder cannot be written to,
-// and (kBadInput) if the file exists, is not empty, and the user did not give kForceFlag.
+// Checks that `out` can be written. Call this before long work. Fails (kIo) if the folder cannot be
+// written to, and (kBadInput) if the file exists and is not empty, unless the user gave kForceFlag.
 Expected<void> check_output(const Arguments& arguments, const std::filesystem::path& out);
 
 // Like check_output(), but `out` may be kStandardStream. Fails (kBadInput) if standard output is a
@@ -27,8 +27,8 @@ Expected<void> check_output_or_stdout(const Arguments& arguments, const std::str
 // Writes the file `out` atomically, or writes to standard output if `out` is kStandardStream.
 CommandOutcome write_output(const std::string& out, std::span<const std::uint8_t> bytes);
 
-// Returns the stream for the result of a command that has written `out`: stdout, or stderr if
-// stdout has the file itself.
+// Returns the stream on which a command reports its result after writing `out`: stdout, or stderr
+// if the file itself was written to stdout.
 std::FILE* result_stream(const std::string& out);
 
 }  // namespace vitrine::server::cli

@@ -8,8 +8,9 @@
 
 namespace vitrine::server::cli {
 
-// Returns the installation that the user names by its data folder or by the configuration file of
-// its daemon. The file may name a bucket and a database. Environment variables override the file.
+// Returns the installation that the user names, either by its data folder or by its daemon's
+// configuration file. The configuration file may name a bucket and a database. Environment
+// variables override the file.
 Expected<InstallationPlace> place_of(const std::string& text);
 
 // The limit on the size of models and uploads together. It comes from the configuration file, or
@@ -20,8 +21,8 @@ struct StorageLimit {
 };
 Expected<StorageLimit> storage_limit_of(const std::string& text);
 
-// Succeeds if the installation exists or its folder is empty, so that a mistyped name does not
-// create an installation. Fails with kIo.
+// Succeeds if the installation exists or its folder is empty. A mistyped name therefore does not
+// create a new installation. Fails with kIo.
 Expected<void> check_existing(const InstallationPlace& place);
 
 // Opens an installation for which check_existing() succeeds.

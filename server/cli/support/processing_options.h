@@ -26,8 +26,8 @@ inline constexpr Flag kLargestHoleFlag = {
     "--largest-hole", "MM",
     "largest width of a hole that is closed; 0: none (default for a new scan: 2)"};
 
-// Reads the flags; the command must declare all of them. Flags not given keep the values of
-// `otherwise`.
+// Reads the processing flags, all of which the command must declare. Options without a flag on the
+// command line keep the values of `otherwise`.
 tl::expected<acquisition::Processing, Fault> processing_options(
     const Arguments& arguments, const acquisition::Processing& otherwise);
 

@@ -38,7 +38,8 @@ tl::expected<const ImportFormat*, Fault> stated_format(const Arguments& argument
 
 Expected<void> check_format(std::span<const std::uint8_t> mesh, const ImportFormat* stated) {
   if (stated == nullptr || is_package(mesh) || stated->recognises(mesh)) return {};
-  constexpr std::size_t kMark = 3;  // bytes of a UTF-8 byte order mark, which may come first
+  // size in bytes of a UTF-8 byte order mark, with which the file may begin
+  constexpr std::size_t kMark = 3;
   if (mesh.size() > kMark && stated->recognises(mesh.subspan(kMark))) return {};
   return fail(ErrorCode::kBadInput,
               fmt::format("this is not {}, as {} says; leave {} out, or check the input",

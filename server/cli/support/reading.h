@@ -22,8 +22,8 @@ inline constexpr Flag kFormatFlag = {
 // Reads kFormatFlag. Returns null if it is absent.
 tl::expected<const ImportFormat*, Fault> stated_format(const Arguments& arguments);
 
-// Fails (kBadInput) if the mesh has another format than `stated`. A package passes. Must run in the
-// sandbox if the bytes are untrusted.
+// Fails (kBadInput) if the mesh has another format than `stated`. Always succeeds for a package.
+// Must run in the sandbox if the bytes are untrusted.
 Expected<void> check_format(std::span<const std::uint8_t> mesh, const ImportFormat* stated);
 
 // Reads kUnitFlag and kUpFlag; the command must declare one of them or both.

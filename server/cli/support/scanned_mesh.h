@@ -12,8 +12,8 @@
 
 namespace vitrine::server::cli {
 
-// Returns the mesh format for the extension of the file that -o names. Fails if no mesh can be
-// written in that format, and if check_output() does.
+// Returns the mesh format for the extension of the file that -o names. Fails if the extension is
+// not that of a format that can be written, or if check_output() fails.
 tl::expected<MeshFormat, Fault> scan_output(const Arguments& arguments);
 
 CommandOutcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::string& out);

@@ -12,8 +12,8 @@
 namespace vitrine::server::cli {
 namespace {
 
-// Returns the lines of a reader's report about materials and pictures that the texturing lacks.
-// Such lines contain " not carried: " and a reason.
+// Returns those lines of a reader's report that name materials or pictures missing from the
+// texturing. Such lines contain " not carried: " and a reason.
 std::vector<std::string> not_carried(const ImportedMesh& imported) {
   std::vector<std::string> lines;
   std::ranges::copy_if(imported.repairs, std::back_inserter(lines), [](const std::string& line) {
@@ -22,7 +22,8 @@ std::vector<std::string> not_carried(const ImportedMesh& imported) {
   return lines;
 }
 
-// Returns the finest pictures of a model, or an empty Texturing if it has none.
+// Returns a texturing with the finest pictures of a model, or an empty one if the model has no
+// pictures.
 Expected<Texturing> finest_texturing(const Refiner& refiner, std::span<const std::uint8_t> pmesh) {
   const Manifest& manifest = refiner.manifest();
   const auto pictures = pictures_to_export(manifest, refiner.face_count(), std::nullopt);

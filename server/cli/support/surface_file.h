@@ -14,14 +14,15 @@
 
 namespace vitrine::server::cli {
 
-// kShape: the mesh and its unit. kLooks: also the texturing, which takes memory for its pictures.
+// kShape reads the mesh and its unit. kLooks also reads the texturing, which takes memory for its
+// pictures.
 enum class SurfaceParts : std::uint8_t { kShape, kLooks };
 
 struct SurfaceInput {
   TriangleMesh mesh;
   std::string unit;  // empty if unknown
-  // Empty for a .pmesh file, and if only kShape was requested. Readers also apply the texturing's
-  // factors and maps to the vertex colours.
+  // Empty for a .pmesh file, or if only kShape was requested. Readers also apply the factors and
+  // maps of the texturing to the vertex colours.
   Texturing texturing;
   // One line for each kind of material or picture in the file that `texturing` lacks.
   std::vector<std::string> not_carried;

@@ -10,11 +10,11 @@
 namespace vitrine::server::cli {
 
 // Reads those of the flags --level, --triangles, --bytes and --error that the command declares, and
-// returns the target that the user gives. Returns nullopt if none is given, which means the finest
-// level. Fails if several are given.
+// returns the detail target. Returns nullopt if the user gave none of them, which means the finest
+// level. Fails if the user gave several.
 tl::expected<std::optional<Want>, Fault> read_want(const Arguments& arguments);
 
-// Fails with kState if the model has no level as coarse or as fine as the target requires.
+// Fails with kState if no level of the model is as coarse or as fine as the target requires.
 Expected<void> check_want(const Manifest& manifest, const Want& want);
 
 }  // namespace vitrine::server::cli

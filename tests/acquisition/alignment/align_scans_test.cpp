@@ -50,7 +50,8 @@ TEST(AlignScans, EqualScansAndSeedGiveEqualMotions) {
   EXPECT_EQ(a->motions[1].shift, b->motions[1].shift);
 }
 
-// The first and the last scan show opposite sides.
+// The first and the last scan show opposite sides of the object, so they are joined through the
+// second scan.
 TEST(AlignScans, AScanMayBeJoinedThroughAnotherOne) {
   const RigidMotion side = rotation_about({1, 0, 0}, 90), over = rotation_about({1, 0, 0}, 180);
   const std::vector scans = {scan_of(bumpy, {}, .05), scan_of(bumpy, over, .05),

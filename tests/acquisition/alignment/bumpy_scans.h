@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scans of shapes whose surface is known: star-shaped about the origin, seen from above in several
-// poses.
+// Scans of shapes with a known surface: shapes that are star-shaped about the origin, seen from
+// above in several poses.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,17 @@ namespace vitrine::acquisition {
 // Returns the distance of the surface from the origin, in mm, in a direction (a unit vector).
 using Radius = std::function<double(const Vec3& direction)>;
 
-// Bumps that make every pose unique; about 20 mm.
+// A sphere of about 20 mm radius with bumps that make every pose unique.
 double bumpy(const Vec3& direction);
-// A body of revolution about z with mouldings.
+// A body of revolution about z with mouldings, like a turned vase.
 double vase(const Vec3& direction);
 // A cube with an edge of 30 mm.
 double cube(const Vec3& direction);
 
 RigidMotion rotation_about(const Vec3& axis, double degrees, const Vec3& shift = {});
 
-// Returns the scan of the shape after it was moved by `pose`: the directions whose z is at least
-// `from` after the rotation of the pose. Light comes and goes radially.
+// Returns the scan of the shape after it was moved by `pose`. The scan covers the directions whose
+// z is at least `from` after the rotation of the pose. All sight lines are radial.
 PoseScan scan_of(const Radius& radius, const RigidMotion& pose, double from,
                  const std::string& name = "scan");
 

@@ -10,9 +10,10 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kFocal = 3'000;                // pixels
-const Vec3 kCamera = {250, 60, 160};            // mm: x and y in the laser plane, then the distance
-constexpr int kWidth = 1'300, kHeight = 1'030;  // pixels
+constexpr double kFocal = 3'000;  // focal length in pixels
+// Position in mm: x and y in the laser plane, then the distance from the plane.
+const Vec3 kCamera = {250, 60, 160};
+constexpr int kWidth = 1'300, kHeight = 1'030;  // size of a picture, in pixels
 
 // Returns the calibration of a camera without distortion that looks at the axis.
 Calibration calibration() {
@@ -39,7 +40,8 @@ Calibration calibration() {
 TEST(CameraPlace, FollowsFromThePerspectiveOfTheMap) {
   const auto place = camera_place(calibration());
   ASSERT_TRUE(place.has_value());
-  // With an axis parallel to y, rho is x and the lateral coordinate is opposite to the normal.
+  // If the axis is parallel to y, rho equals x, and the lateral coordinate is opposite to the
+  // plane's normal.
   EXPECT_NEAR(place->rho, kCamera.x, 3);
   EXPECT_NEAR(place->z, kCamera.y, 3);
   EXPECT_NEAR(place->lateral, -(kCamera.z - .2), 3);
@@ -55,7 +57,7 @@ TEST(SightLines, LeadFromEachPointToLaserAndCamera) {
     EXPECT_NEAR(length(line.towards), 1, 1e-9);
     EXPECT_NEAR(line.towards.z, 0, .02);  // the camera is as high as the point
   }
-  // The laser shines along the profile's half plane, the camera looks at it from the side.
+  // The laser shines along the profile's half plane. The camera looks at this plane from the side.
   EXPECT_NEAR(dot(lines[0].towards, at) / std::hypot(at.x, at.y), 1, 1e-3);
   EXPECT_NEAR(dot(lines[1].towards, at) / std::hypot(at.x, at.y), 240 / std::hypot(240, 160), .02);
 }

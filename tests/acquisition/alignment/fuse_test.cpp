@@ -11,7 +11,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kSame = .5;  // mm: reach
+constexpr double kSame = .5;  // reach in mm
 
 TEST(FusedSurface, TwoPosesOfOneObjectBecomeOneSurface) {
   const RigidMotion pose = rotation_about({1, 0, 0}, 180, {3, 1, 2});
@@ -29,7 +29,7 @@ TEST(FusedSurface, TwoPosesOfOneObjectBecomeOneSurface) {
   EXPECT_LT(mesh.faces.size(), scans[0].mesh.faces.size() + scans[1].mesh.faces.size() * 4 / 5);
 }
 
-// A vertex that several added faces share is added once.
+// A vertex that several added faces share must be added only once.
 TEST(FusedSurface, OnlyVerticesOfFacesThatAreAddedAreAdded) {
   const std::vector scans = {scan_of(bumpy, {}, .5), scan_of(bumpy, {}, -.4)};
   const TriangleMesh mesh = fused_surface(scans, std::vector<RigidMotion>(2), kSame);
@@ -52,7 +52,7 @@ TEST(FusedSurface, AScanThatShowsNothingNewAddsNothingAndNoColours) {
   EXPECT_TRUE(mesh.attributes.colours.empty());
 }
 
-// The seam is not stitched: both rims stay open, and what no scan saw stays a hole.
+// The seam is not stitched: both rims stay open. A part that no scan has seen stays a hole.
 TEST(FusedSurface, HolesAndSeamsStayOpen) {
   const RigidMotion pose = rotation_about({1, 0, 0}, 180);
   const std::vector scans = {scan_of(bumpy, {}, .2), scan_of(bumpy, pose, .2)};

@@ -12,7 +12,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kSpacing = 1, kReach = .5;  // mm
+constexpr double kSpacing = 1, kReach = .5;  // in mm
 
 TEST(PointFeatures, DoNotDependOnThePose) {
   const SurfacePoints points = evenly_spaced(scan_of(bumpy, {}, 0).mesh, kSpacing);
@@ -32,7 +32,8 @@ TEST(MutualMatches, OnlyPairsThatChooseEachOtherMatch) {
   std::vector<PointFeature> from(2, PointFeature{}), to(20, PointFeature{});
   for (PointFeature& feature : to)
     feature[5] = 50;
-  to[18][5] = 1, from[1][5] = 3;  // both of `from` are closest to 18, which is closest to 0
+  // 18 is the closest feature for both points of `from`, but 0 is the closest for 18
+  to[18][5] = 1, from[1][5] = 3;
   const auto matches = mutual_matches(from, to);
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_EQ(matches[0].from, 0U);
@@ -76,7 +77,7 @@ TEST(CrossedShare, TellsARightPoseFromAWrongOne) {
   EXPECT_TRUE(is_contradicted(judge_pair(from, to, wrong, kReach), kReach));
 }
 
-// A line on which the scan has a surface itself is not that of light.
+// If the scan itself has a surface on a line, light cannot have passed along it.
 TEST(CrossedShare, LinesThatTheScanItselfBlocksDoNotCount) {
   PoseScan scan = scan_of(bumpy, {}, -.5);
   const std::size_t free = PreparedScan(scan, kSpacing).lines().size();

@@ -199,7 +199,7 @@ TEST(Calibrate, ReportsWhatHeldOutPosesSay) {
 TEST(Calibrate, JudgesPosesThatItWasNotFittedTo) {
   CalibrationInput input = SyntheticScanner().pictures(2, 6, {.stripe = 0});
   for (ImagePoint& p : input.pictures[8].stripe)
-    p.u += 20;  // this pose contradicts the others
+    p.u += 20;  // makes this pose contradict the others
   const auto result = calibrate(input, {});
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_GT(result->calibration.residuals.max, 1);

@@ -31,7 +31,7 @@ class SyntheticScanner {
 
   // Returns the point of the laser plane that a pixel sees, in mm in the camera's frame.
   cv::Vec3d seen(double u, double v) const;
-  // Return the distance of a point from the table's axis and its height along the axis.
+  // Return a point's distance from the table's axis and its height along the axis, in mm.
   double distance(const cv::Vec3d& at) const;
   double height(const cv::Vec3d& at) const;
   // Returns the angle of a point around the axis, in degrees, in the table's sense of rotation.

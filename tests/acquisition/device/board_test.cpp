@@ -150,7 +150,7 @@ TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
   ASSERT_EQ(rig_.ask("plug " + name()), "ok");
   const double before = rig_.table();
   double at = 0;
-  // A FabScan rounds these angles, which are 4.4, 8.9 and 13.3 motor steps.
+  // These angles are 4.4, 8.9 and 13.3 motor steps. A FabScan rounds them to whole steps.
   for (const double next : {0.5, 1.0, 1.5}) {
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;

@@ -43,8 +43,8 @@ class SimulatedCamera {
     ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(camera_);
     EXPECT_TRUE(arv_fake_camera_write_register(fake, static_cast<guint32>(address), value));
   }
-  // Loses the share `part` of all packets, the same packets in each run. Lost packets are not sent
-  // again.
+  // Loses the share `part` of all packets. Each run loses the same packets. Lost packets are not
+  // sent again.
   void lose_packets(double part) {
     g_random_set_seed(1);
     g_object_set(camera_, "gvsp-lost-ratio", part, nullptr);
@@ -173,8 +173,8 @@ TEST_F(CameraTest, ThatIsGoneIsAnErrorAndIsOpenedAnewWhenItIsBack) {
   EXPECT_TRUE((*camera)->capture());
 }
 
-// A client repeats an unacknowledged trigger. A camera that is plugged in again too early would
-// execute that trigger.
+// A client repeats a trigger that was not acknowledged. A camera that is plugged in again too early
+// would execute the repeated trigger.
 TEST_F(CameraTest, ThatIsGoneIsTriggeredNoMoreOnceTheRigPutsItsCableBack) {
   auto simulated = std::make_unique<SimulatedCamera>(kAddress);
   auto camera = open_camera({.address = kAddress});

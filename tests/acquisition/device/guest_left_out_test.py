@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests guest_test.py without a kernel: it reports that, and deploy/test counts it as a failure."""
+"""Tests guest_test.py without a kernel: it must report that the kernel is missing, and deploy/test
+must count this as a failure.
+"""
 import os
 import subprocess
 import sys

@@ -4,8 +4,7 @@
 
 Usage: guest_test.py KERNEL BIN TESTS. KERNEL is the folder into which deploy/setup unpacks a
 kernel. BIN and TESTS hold the programs. QEMU emulates the guest, so the test needs no privileges.
-The test is skipped if a tool or the kernel is missing; if VITRINE_NO_SKIPS is set, that is a
-failure.
+The test is skipped if a tool or the kernel is missing; it fails instead if VITRINE_NO_SKIPS is set.
 
 In the guest, drive_board drives two devices. One is QEMU's usb-serial, which the kernel takes for
 an FTDI chip; serve_firmware answers it outside the guest. The other is g_serial, a CDC-ACM device;
@@ -28,11 +27,11 @@ MODULES = ("usb-common usbcore xhci-hcd xhci-pci usbserial ftdi_sio cdc-acm conf
 KERNEL, BIN, TESTS = (Path(word) for word in sys.argv[1:4])
 PROGRAMS = [TESTS / "drive_board", TESTS / "serve_firmware", BIN / "vitrine-guardian"]
 FTDI, ACM = "0403:6001", "0525:a4a7"
-PATIENCE = 240  # seconds; enough on a busy machine
+PATIENCE = 240  # time limit in seconds; enough on a busy machine
 
 
 def missing():
-    """Returns why the test cannot run here; empty if it can."""
+    """Returns the reason why the test cannot run on this machine, or an empty text if it can."""
     for tool in ("qemu-system-x86_64", "busybox", "cpio"):
         if not shutil.which(tool):
             return f"there is no {tool}"
@@ -89,7 +88,9 @@ def serve(line):
 
 
 def run():
-    """Runs the guest to its end. Returns its output and that of the firmware at the host's end."""
+    """Runs the guest until it ends. Returns the guest's output and the output of the firmware at
+    the host's end.
+    """
     with tempfile.TemporaryDirectory() as name:
         line = Path(name) / "line"
         guest = boot(Path(name), line)
@@ -114,7 +115,7 @@ class Guest(unittest.TestCase):
         print(cls.console)
 
     def assertInOrder(self, text, *lines):
-        """Checks that `text` contains the lines in this order."""
+        """Checks that the output contains these lines in this order."""
         at = 0
         for line in lines:
             found = text.find(line, at)

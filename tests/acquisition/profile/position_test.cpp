@@ -10,8 +10,8 @@ void expect_at(const Vec3& p, const Vec3& q) {
   EXPECT_NEAR(length(p - q), 0, 1e-12) << p.x << ' ' << p.y << ' ' << p.z;
 }
 
-// The table has turned the object by 90 degrees counter-clockwise. So the point that is now in
-// front of the laser was originally 90 degrees clockwise of the laser.
+// The table has turned the object by 90 degrees counter-clockwise. The point that is now in front
+// of the laser was therefore originally 90 degrees clockwise of the laser.
 TEST(Position, IsTurnedBackByTheTablesAngle) {
   const Profile profile{90, {}};
   expect_at(position(profile, {{10, 0, 5}}), {0, -10, 5});

@@ -69,8 +69,8 @@ TEST(PaperSampling, UpToTenPointsNothingIsEverBeyondThreeSigma) {
   }
 }
 
-// The last block may have fewer points, so the ratio is a little larger than 1 / L. [WLL] table 1
-// has .2046 and .2012.
+// The last block may have fewer points, so the ratio is slightly larger than 1 / L. [WLL] table 1
+// states .2046 and .2012.
 TEST(PaperSampling, KeepsAFifthAtFive) {
   std::mt19937_64 random(3);
   std::size_t before = 0, after = 0;
@@ -190,8 +190,8 @@ TEST(AdaptiveSampling, LiesInTheMiddleOfABend) {
   EXPECT_LT(std::abs(sum / static_cast<double>(kept.points.size() - 1)), .6 * sagitta);
 }
 
-// A flat profile needs few points, so a detailed profile gets the points that the flat one does not
-// need.
+// A flat profile needs few points. A detailed profile must get the points that the flat one does
+// not need.
 TEST(AdaptiveSampling, SharesPointsAmongProfiles) {
   std::vector<double> rough(200, 30);
   for (std::size_t i = 0; i < rough.size(); i += 3)

@@ -10,7 +10,7 @@
 namespace vitrine::acquisition {
 
 struct StripeImage {
-  int width = 320, height = 200;  // pixels of the picture
+  int width = 320, height = 200;  // size of the picture, in pixels
   // Returns the stripe's u in a row, or NaN if the row has no stripe.
   std::function<double(double)> centre;
   double peak = 160, sigma = 2.5;  // grey levels at the stripe's peak; standard deviation in pixels

@@ -6,7 +6,7 @@ namespace {
 
 using KeptTable = AtRig;
 
-// The scan's first motion takes 45 seconds, so that the rig is killed during that motion.
+// The scan's first motion takes 45 seconds, so the rig is certainly killed during that motion.
 TEST_F(KeptTable, IsWhereTheMotionEndsAmidWhichTheRigIsKilled) {
   const auto result = with_object(
       "trap '' TERM; \"$vitrine\" scan --config rig.json --steps 8 -o out.ply > scan.log 2>&1 & "

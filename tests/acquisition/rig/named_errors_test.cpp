@@ -29,8 +29,8 @@ TEST_F(NamedErrors, ALaserThatDoesNotLightIsNoStripe) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out"})));
 }
 
-// Without noise, the pictures with and without laser are equal. The error must not blame the camera
-// for that.
+// Without noise, the pictures with and without laser are equal. The error must not state that the
+// camera is at fault.
 TEST_F(NamedErrors, BeforeAnIdealCameraItIsNoStripeEither) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out", "--ideal"})));
 }

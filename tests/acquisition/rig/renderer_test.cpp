@@ -25,7 +25,7 @@ TEST(Renderer, TheSameSettingGivesTheSamePictureWhateverCameBefore) {
   one.take({at(30, false)});
   one.take({at(12.5, true)});
   EXPECT_EQ(one.take({at(77.25, true)}), other.take({at(77.25, true)}));
-  // These angles are one revolution apart.
+  // These two angles differ by one revolution, so the pictures must be equal.
   EXPECT_EQ(one.take({at(-282.75, true)}), other.take({at(77.25, true)}));
 }
 

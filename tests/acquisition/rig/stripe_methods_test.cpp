@@ -29,7 +29,7 @@ TEST_F(StripeMethods, AScanReprocessedByAnotherOneIsTheScanByThatOne) {
   for (const char* mesh : {"usual.ply", "by_centre.ply", "blais-rioux.ply"}) {
     const auto distance = vitrine_json({"measure", path(mesh), path("truth.ply")});
     EXPECT_LT(distance["a_to_b"]["rms"].get<double>(), 0.3)
-        << mesh;  // the limit is wide, because a scan with so few steps is coarse
+        << mesh;  // the limit is generous, because a scan with so few steps is coarse
   }
 }
 

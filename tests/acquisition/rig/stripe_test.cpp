@@ -197,8 +197,8 @@ TEST(Stripe, OnlyTheSkewedProfileIsSkewed) {
   EXPECT_GT(std::abs(spread_across(StripeShape::kSkewed)), 0.25);
 }
 
-// The wall lies in the middle of the sheet, and its light is the same everywhere. So its pixels
-// differ only by speckle.
+// The wall lies in the middle of the sheet, and its light is the same everywhere. Its pixels
+// therefore differ only by speckle.
 TEST(Stripe, SpeckleHasAtLeastItsContrastAndAGrainOfOneToTwoPixels) {
   class Bright final : public Subject {
    public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests surfaces, one behind the other, that are both lit and visible in the same picture rows. The
-// tests cover all steps from the pictures to the mesh.
+// Tests surfaces that lie one behind the other and are both lit and visible in the same rows of a
+// picture. The tests cover all steps from the pictures to the mesh.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 // Distances of the two sheets from the axis, in mm. They are so large that the first and the last
 // profile are not joined.
 constexpr double kFront = 38, kBehind = 16;
-constexpr double kHeight = 40;  // mm: height of the rear sheet; the front sheet is half as high
-constexpr double kStep = .5;    // degrees between profiles
+constexpr double kHeight = 40;  // in mm: height of the rear sheet; the front sheet is half as high
+constexpr double kStep = .5;    // angle between profiles, in degrees
 constexpr int kSteps = 17;
 
 TriangleMesh two_sheets() {

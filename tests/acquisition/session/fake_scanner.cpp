@@ -24,8 +24,8 @@ Expected<void> call(FakeWorld& world, const std::string& name) {
   return {};
 }
 
-// Returns noise that depends only on angle, laser and pixel. So a repeated capture gives the same
-// picture.
+// Returns noise that depends only on the angle, the laser and the pixel. A repeated capture
+// therefore gives the same picture.
 int noise(double degrees, bool laser, int pixel) {
   std::uint64_t x = static_cast<std::uint64_t>(std::lround(degrees * 1'000)) * 2 + laser;
   x = (x << 24) + static_cast<std::uint64_t>(pixel);

@@ -15,8 +15,8 @@
 
 namespace vitrine::test {
 
-inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // pixels
-inline constexpr double kFakePixel = 0.25;                // mm
+inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // size of a picture, in pixels
+inline constexpr double kFakePixel = 0.25;                // width of a pixel in mm
 // First row in which kTwoSurfaces shows a second surface behind the first.
 inline constexpr int kFakeOtherRow = 12;
 inline constexpr const char* kFakeSerial = "fake-1";

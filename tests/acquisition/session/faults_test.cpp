@@ -126,7 +126,7 @@ TEST_F(ScanTest, ATableThatDoesNotTurnEndsTheScanAtTheSecondTry) {
   EXPECT_EQ(world_.calls["turn"], 6);
   EXPECT_EQ(world_.calls["open board"], 2);
   world_.fault = {};
-  world_.forgets_position = true;  // the table still stands at the end of its last complete motion
+  world_.forgets_position = true;  // the table then stands at the end of its last complete motion
   EXPECT_EQ(run(scan), ScanState::kDone);
   EXPECT_EQ(mesh_text(scan), undisturbed());
 }

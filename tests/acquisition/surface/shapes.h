@@ -17,8 +17,8 @@ using Shape = std::function<std::optional<double>(double angle, double z)>;
 
 struct Scanned {
   int profiles = 90, rows = 60;
-  double top = 30, bottom = 0;  // mm: heights of the first and last row
-  double noise = 0;             // mm: noise of rho
+  double top = 30, bottom = 0;  // heights of the first and last row, in mm
+  double noise = 0;             // noise of rho, in mm
   std::uint64_t seed = 1;
 };
 

@@ -31,7 +31,7 @@ TEST(Strands, OfOnePointARowAreOne) {
   EXPECT_EQ(strands_of({}).size(), 1);
 }
 
-// The points within a row may be in any order.
+// The points within a row may be in either order.
 TEST(Strands, FollowTheSurface) {
   std::mt19937 random(1);
   Profile profile{30, {}};

@@ -176,7 +176,7 @@ TEST(Surface, OfAnySamplingHasNoHoles) {
           mesh_of(profiles, {.sampling = {.method = method, .window = length, .noise = .02}});
       const Topology topology = topology_of(mesh);
       EXPECT_EQ(topology.most, 2);
-      // The boundary consists at most of both rims and the uneven ends of the profiles.
+      // The boundary consists at most of both rims and of the uneven ends of the profiles.
       EXPECT_LE(topology.boundary, 2 * 90 + 2 * 90 * 2);
       EXPECT_GT(signed_volume(mesh), 0);
     }
@@ -208,17 +208,17 @@ TEST(Surface, AGrazingStepIsNoDiscontinuity) {
   EXPECT_EQ(mesh_of(profiles, flat).faces.size(), 2 * 360 * 18);
 }
 
-// Along the whole slope, the depth changes by 1.8 mm from one row to the next, 0.25 mm away. So the
-// slope is 82 degrees.
+// Along the whole slope, the depth changes by 1.8 mm from one row to the next, which is 0.25 mm
+// away. The slope is therefore 82 degrees.
 TEST(Surface, ASlopeThatIsGrazedAllAlongIsWhole) {
   const auto cone = [](double, double z) { return 45 - 7.2 * z; };
   const auto profiles = scan_of(cone, {.profiles = 360, .rows = 20, .top = 4.75});
   EXPECT_EQ(mesh_of(profiles, {.largest_spacing = .42}).faces.size(), 2 * 360 * 19);
 }
 
-// The slope of the test above, but tilted: its height changes by up to .35 mm from one profile to
-// the next. So the depth changes by up to 2.5 mm from one profile to the next, and by 1.8 mm from
-// one row to the next.
+// Like the slope of the previous test, but tilted: the slope's height changes by up to .35 mm from
+// one profile to the next. The depth therefore changes by up to 2.5 mm between profiles and by 1.8
+// mm between rows.
 TEST(Surface, ASlopeThatRunsAcrossTheRowsIsWholeToo) {
   const auto cone = [](double angle, double z) -> std::optional<double> {
     const double rho = 45 - 7.2 * (z - 20 - 20 * std::sin(angle));
@@ -457,8 +457,9 @@ TEST(Surface, OfRandomProfilesIsEdgeManifold) {
   }
 }
 
-// Two wavy sheets intersect, and each lacks some rows, which are random in each profile. So the
-// strands of a profile (strands.h) have gaps and change from one sheet to the other.
+// Two wavy sheets intersect. Each sheet lacks some rows, which are chosen at random for each
+// profile. The strands of a profile (strands.h) therefore have gaps and change from one sheet to
+// the other.
 TEST(Surface, OfTwoRaggedSheetsIsEdgeManifold) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

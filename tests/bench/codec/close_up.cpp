@@ -8,7 +8,7 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kFieldOfView = 35;  // degrees
+constexpr double kFieldOfView = 35;  // vertical, in degrees
 
 View look(const Vec3& at, const Vec3& back, double distance) {
   const Vec3 aside = std::abs(back.y) > 0.5 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};

@@ -10,8 +10,8 @@
 namespace vitrine::bench {
 
 // Returns six cameras, one for each direction of an axis. Each camera is in front of the outermost
-// vertex on its side. It is so close that `share` of the model's diagonal fills the height of a
-// viewport of 800 x 600 pixels.
+// vertex on its side. The camera is so close that `share` times the model's diagonal fills the
+// height of a viewport of 800 x 600 pixels.
 std::vector<View> close_ups(const TriangleMesh& mesh, double share);
 
 // Returns the bytes, header included, that the planner needs until no visible error exceeds one

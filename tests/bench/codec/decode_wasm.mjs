@@ -33,7 +33,8 @@ async function decode() {
   return decoder;
 }
 
-// Processor time of the last run. By then, the engine has compiled the hot code.
+// The measured time is the processor time of the last run, because the engine has then compiled the
+// hot code.
 let seconds;
 for (let run = 0; run < 3; ++run) {
   const start = process.cpuUsage();

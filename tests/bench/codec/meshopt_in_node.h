@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the npm package of meshoptimizer. It can do more than Debian's version of the library: it
-// respects attributes, and moves vertices to better positions.
+// Runs the npm package of meshoptimizer. This version can respect attributes and move vertices to
+// better positions; Debian's version of the library cannot.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ struct SimplifiedArrays {
 };
 
 // Simplifies a mesh to about `faces` triangles, and moves vertices. Returns one mesh for each
-// number of faces. Seams of the attributes stay, unless a mesh with them would be too large. Needs
-// Node.
+// number of faces. Keeps the seams of attributes, unless the mesh would then have too many faces.
+// Needs Node.
 std::vector<SimplifiedArrays> simplify_in_node(const MeshoptInput& mesh,
                                                const std::vector<std::size_t>& faces);
 

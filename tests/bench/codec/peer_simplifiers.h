@@ -25,8 +25,8 @@ std::vector<Simplified> simplify_by_meshopt_update(const TriangleMesh& mesh,
 // Simplifies with OpenMesh's decimater and its quadric error module (ModQuadric).
 Simplified simplify_by_openmesh(const TriangleMesh& mesh, std::size_t faces);
 
-// Simplify with CGAL's edge collapses and default policies, by [GH97] and by [LT98]. These
-// functions are defined only if CMake found CGAL.
+// Both functions simplify with CGAL's edge collapses and default policies: the first by [GH97], the
+// second by [LT98]. They are defined only if CMake has found CGAL.
 Simplified simplify_by_garland_heckbert(const TriangleMesh& mesh, std::size_t faces);
 Simplified simplify_by_lindstrom_turk(const TriangleMesh& mesh, std::size_t faces);
 

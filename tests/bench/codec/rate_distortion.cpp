@@ -10,8 +10,8 @@
 namespace vitrine::bench {
 namespace {
 
-// Largest accepted ratio of our bytes to those of a single file of equal error. It limits the
-// geometric mean over a model's levels.
+// Largest accepted ratio of a level's bytes to those of a single file with equal error. The limit
+// applies to the geometric mean over a model's levels.
 constexpr double kMaxRate = 1.5;
 constexpr std::size_t kFewestFaces = 50'000;
 // Range of the compared levels, as shares of the original's faces.

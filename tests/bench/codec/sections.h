@@ -20,9 +20,9 @@ void sizes(Report& report, const std::vector<BenchmarkModel>& models);
 // 50,000 faces.
 void rate_distortion(Report& report, const std::vector<BenchmarkModel>& models);
 
-// Compares the default way to simplify (Placement::kMidpoint, CollapseOrder::kBatch) with the other
-// three combinations of Placement and CollapseOrder. Reports the error at equal faces, the error at
-// equal bytes, and the total bytes.
+// Compares the default way to simplify (Placement::kMidpoint, CollapseOrder::kBatch) with the three
+// other combinations of Placement and CollapseOrder. Reports the error at equal numbers of faces,
+// the error at equal numbers of bytes, and the total bytes.
 void variants(Report& report, const BenchmarkModel& model);
 
 // Simplifies to a tenth of the faces with other libraries, whose positions are not rounded.

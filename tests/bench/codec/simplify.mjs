@@ -18,7 +18,9 @@ const values = new Float32Array(buffer, 12 + 12 * vertices, width * vertices);
 const faces = new Uint32Array(buffer, 12 + 4 * (3 + width) * vertices, count);
 
 const kAttributeWeight = 0.5; // as in codec/simplify/TEXTURES.md, section 1
-const kStuck = 1.2; // more faces than this, relative to the number asked for, mean that seams are in the way
+// If a result has more than this multiple of the requested number of faces, seams have prevented
+// collapses.
+const kStuck = 1.2;
 
 function reduce(target, flags) {
   const positions = fine.slice();

@@ -14,7 +14,7 @@ constexpr double kMaxSize = 1.27, kMaxMeanSize = 1.03;
 // Minimum number of models for which a mean is meaningful.
 constexpr std::size_t kMeanModels = 5;
 // Maximum bytes of the head (header and base mesh), which the first request fetches, per million
-// triangles. A started million counts as a whole one.
+// triangles. The number of millions is rounded up.
 constexpr double kMaxHead = 32 * 1024;
 
 void first_request(Report& report, const BenchmarkModel& model, const Bytes& pmesh) {

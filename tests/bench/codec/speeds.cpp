@@ -110,8 +110,8 @@ void memory_of_builds(Report& report, const BenchmarkModel& model) {
   }
 }
 
-// Compares the wall times of builds on two threads and on one. Has no limit, because wall times
-// depend on the machine's other load.
+// Compares the wall times of builds on two threads and on one. The result has no threshold, because
+// wall times depend on the machine's other load.
 void threads_of_builds(Report& report, const BenchmarkModel& model) {
   const auto on = [&](unsigned threads) {
     return

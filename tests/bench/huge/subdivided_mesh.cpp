@@ -19,7 +19,7 @@ constexpr int kWaves = 6;              // number of waves; each is half as long 
 constexpr double kLongest = 1.0 / 24;  // length of the longest wave, as a share of the diagonal
 constexpr double kHeight = 1.0 / 40;   // height of a wave, as a share of its length
 
-// Returns the unit normal of each vertex; (0, 0, 0) if a vertex has no normal.
+// Returns the unit normal of each vertex, or (0, 0, 0) for a vertex that has no normal.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size());
   for (const auto& [a, b, c] : mesh.faces) {
@@ -78,8 +78,8 @@ class Numbering {
 
   const TriangleMesh& scan_;
   std::uint32_t n_, count_ = 0;
-  // Indices in the new mesh. corner_ holds that of each vertex of the scan. edge_ and inside_ hold
-  // that of the first inner point of each edge and of each face.
+  // Indices in the new mesh. corner_ holds the index of each vertex of the scan. edge_ and inside_
+  // hold the index of the first inner point of each edge and of each face.
   std::vector<std::uint32_t> corner_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edge_;
   std::vector<std::uint32_t> inside_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a mesh of any size from a small scan. Cuts each triangle into n² triangles. Waves of
-// several lengths move the new vertices along the scan's normals, to add detail.
+// Makes a mesh of any size from a small scan: cuts each triangle into n² triangles. To add detail,
+// waves of several lengths move the new vertices along the scan's normals.
 #pragma once
 
 #include <cstdint>

@@ -86,7 +86,8 @@ Accuracy accuracy(const TriangleMesh& scan, const Truth& truth) {
 }
 
 TriangleMesh at_height_of(const TriangleMesh& scan, const TriangleMesh& truth) {
-  // `reach`, in mm, decreases from kFarthest to kNearest. Points farther away do not count.
+  // The alignment is repeated with decreasing `reach`, from kFarthest to kNearest mm. Points
+  // farther from the surface than `reach` are ignored.
   constexpr double kFarthest = 8, kNearest = 0.2;
   const TriangleBvh surface(truth);
   std::vector<Vec3> points = points_on(scan, kAlignSamples);

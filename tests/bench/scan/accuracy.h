@@ -8,15 +8,15 @@
 namespace vitrine::bench {
 
 struct Distances {
-  double rms = 0, p95 = 0;  // mm; p95: 95th percentile
+  double rms = 0, p95 = 0;  // in mm; p95 is the 95th percentile
   double within = 0;        // share of points closer than kCovered
 };
-inline constexpr double kCovered = 0.1;  // mm
+inline constexpr double kCovered = 0.1;  // distance in mm
 
 struct Accuracy {
   Distances scan_to_truth;  // distances from all points of the scan
   Distances truth_to_scan;  // distances from the visible part of the truth
-  double rms() const;       // rms() and p95() return the larger value of the two directions
+  double rms() const;       // rms() and p95() return the larger value of both directions
   double p95() const;
 };
 

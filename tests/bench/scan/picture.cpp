@@ -13,7 +13,7 @@ namespace vitrine::bench {
 
 void show(const Options& options, const std::string& name, const TriangleMesh& mesh) {
   if (options.pictures.empty()) return;
-  constexpr std::uint32_t kLongest = 800;  // pixels of the longer side
+  constexpr std::uint32_t kLongest = 800;  // length of the longer side in pixels
   TriangleMesh upright = mesh;             // in a picture, y points upwards
   for (Vec3& p : upright.positions)
     p = {p.x, p.z, -p.y};

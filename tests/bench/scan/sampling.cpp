@@ -19,8 +19,8 @@ namespace vitrine::bench {
 namespace {
 
 constexpr int kLengths[] = {5, 10, 15, 20};
-constexpr double kRow = 0.1;     // mm between the points of a profile at the rig
-constexpr double kNoise = 0.03;  // mm, standard deviation of a stripe point at the rig
+constexpr double kRow = 0.1;     // distance in mm between the points of a profile at the rig
+constexpr double kNoise = 0.03;  // standard deviation in mm of a stripe point at the rig
 
 // [WLL] table 1: number of vertices after sampling divided by the number before, at L = 5.
 constexpr double kPaperSkull = 0.2046, kPaperHead = 0.2012;
@@ -92,7 +92,7 @@ double error_at(double vertices, int length, const Sampler& sampler, const Error
   return error(few.mesh);
 }
 
-// Compares adaptive sampling with the sampling of [WLL] on profiles of one object. `noisy` says
+// Compares adaptive sampling with the sampling of [WLL] on profiles of one object. `noisy` states
 // whether the profiles have noise.
 void judge_errors(Report& report, const std::string& what, const Sampler& sampler,
                   const TriangleMesh& object, const TriangleMesh& all, bool noisy) {

@@ -66,7 +66,7 @@ double vrml_bytes(const TriangleMesh& mesh) {
   return static_cast<double>(value_of(write_mesh(mesh, MeshFormat::kVrml, {.unit = "mm"})).size());
 }
 
-// Returns the bytes of the mesh as a single file, encoded like a base mesh.
+// Returns the size in bytes of a file with only this mesh, encoded like a base mesh.
 double alone(const LatticeMesh& mesh) {
   return static_cast<double>(value_of(encode_base({mesh.positions, mesh.faces, {}})).bytes.size());
 }

@@ -18,7 +18,7 @@
 namespace vitrine::bench {
 
 struct StripeAt {
-  double angle = 0;  // degrees, as commanded to the board
+  double angle = 0;  // angle commanded to the board, in degrees
   std::vector<StripePoint> points;
 };
 

@@ -10,7 +10,7 @@
 namespace vitrine::bench {
 
 struct Truth {
-  TriangleMesh mesh;               // mm, in the table's coordinates
+  TriangleMesh mesh;               // positions in the table's coordinates, in mm
   std::vector<std::uint8_t> seen;  // one flag per vertex: whether laser and camera see it
 };
 

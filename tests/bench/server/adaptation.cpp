@@ -71,8 +71,8 @@ class Adaptation {
       dropped = StreamPeer::now();
     }
     double noticed = kNever;
-    // The default is a forecast that never came true. So the figure fails if the server sends no
-    // forecast.
+    // The default is a forecast that never came true. The figure therefore fails if the server
+    // sends no forecast.
     ReceivedForecast worst{.promise = {}, .at = 0};
     bool any = false;
     for (const ReceivedForecast& heard : course.forecasts()) {
@@ -123,7 +123,7 @@ class Adaptation {
 
  private:
   static constexpr double kSeconds = 2;
-  static constexpr double kShortest = 0.1;  // seconds: shorter forecasts are not judged
+  static constexpr double kShortest = 0.1;  // in seconds; shorter forecasts are not judged
 
   std::string name(const char* what, double rate) const {
     return scan_ + "." + what + "_" + std::to_string(static_cast<int>(rate / 1000));

@@ -9,8 +9,8 @@ namespace vitrine::bench {
 
 inline constexpr int kServerCore = 0, kClientCore = 1;
 
-// Keeps this thread, and processes that it starts while this object exists, on one core. Throws if
-// the core is not available.
+// Restricts this thread to one core, and also the processes that it starts while this object
+// exists. Throws if the core is not available.
 class OnCore {
  public:
   explicit OnCore(int core);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated cable between two TUN devices, which delays packets. Replaces netem, which some
-// kernels lack.
+// A simulated cable between two TUN devices, which delays packets. Used instead of netem, which
+// some kernels lack.
 #pragma once
 
 #include <chrono>
@@ -35,7 +35,7 @@ class DelayLine {
     int from, to;
     std::deque<Packet> packets = {};
 
-    void take(Clock::time_point due);  // reads all available packets
+    void take(Clock::time_point due);  // reads all packets that are available
     void give(Clock::time_point now);  // writes all packets that are due
   };
 

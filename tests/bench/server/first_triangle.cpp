@@ -44,7 +44,7 @@ class ColdVisitor {
 
  private:
   struct Times {
-    double start, first, end;  // seconds; first: arrival of the response's first byte
+    double start, first, end;  // in seconds; `first` is the arrival of the response's first byte
   };
 
   void over_http(const Shown& shown) {

@@ -18,7 +18,7 @@ namespace vitrine::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int kIdleTimeout = 20;  // seconds
+constexpr int kIdleTimeout = 20;  // idle timeout of the daemon, in seconds
 
 }  // namespace
 

@@ -27,7 +27,7 @@ constexpr const char *kOne = "one",
                      *kThree = "three";  // host names in the clients' requests to nginx
 
 // Runs four daemons on one bucket and one database. One daemon has a host name of its own; the
-// other three share another.
+// other three daemons share another host name.
 class Replicas {
  public:
   Replicas() : installation_(open_installation(elsewhere_.place()).value()) {

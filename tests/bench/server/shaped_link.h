@@ -13,7 +13,7 @@
 
 namespace vitrine::bench {
 
-inline constexpr std::chrono::milliseconds kLongWay{150};  // round trip of a distant client
+inline constexpr std::chrono::milliseconds kLongWay{150};  // round-trip time of a distant client
 
 class ShapedLink {
  public:

@@ -34,7 +34,7 @@ class Soak {
       : scan_(scan("demosthenes")),
         id_(folder_.publish("a scan", scan_.pmesh)),
         bearer_("Authorization: Bearer " + folder_.token(Role::kOperator) + "\r\n"),
-        // With these settings, the caches are full before the second half of the run begins.
+        // These settings ensure that the caches are full before the second half of the run begins.
         daemon_(folder_.path(), {"--export-cache", "8000000", "--collect-after", "10"}) {}
 
   struct Sample {
@@ -72,7 +72,7 @@ class Soak {
   }
 
  private:
-  // Pauses for the duration `breath`. Returns whether there is time for another visit.
+  // Pauses for the duration `breath`. Returns whether there is time left for another visit.
   bool is_on(milliseconds breath) {
     std::this_thread::sleep_for(breath);
     return Clock::now() < end_;

@@ -40,7 +40,8 @@ class Gallery {
   const std::vector<std::string>& chunks() const { return chunks_; }
   const std::vector<std::string>& manifests() const { return manifests_; }
 
-  // Unpublishes the models, so that their chunks need a token. Returns the chunks' request targets.
+  // Makes the models drafts, so that their chunks need a token. Returns the chunks' request
+  // targets.
   std::vector<std::string> close_to_public(std::uint16_t port, const std::string& bearer) const {
     std::vector<std::string> chunks;
     for (std::size_t i = 0; i < kModels; ++i) {

@@ -12,12 +12,15 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr std::array<double, 3> kTargets = {0.90, 0.95, 0.98};  // structural similarity
-constexpr double kMaxSingle = 1.15;                             // ratio to the best separate file
-constexpr double kMaxClient = 0.7;     // ratio to a client that fetches each rung
-constexpr double kLeastFinest = 0.99;  // structural similarity of the finest state
+// Structural similarities to the source for which numbers of bytes are compared.
+constexpr std::array<double, 3> kTargets = {0.90, 0.95, 0.98};
+// Largest accepted ratio of our bytes to those of the best separate file.
+constexpr double kMaxSingle = 1.15;
+// Largest accepted ratio of our bytes to those of a client that fetches each rung.
+constexpr double kMaxClient = 0.7;
+constexpr double kLeastFinest = 0.99;  // least structural similarity of the finest state
 
-// Returns the bytes of a state, or infinity if there is none.
+// Returns the bytes of a state, or infinity if there is no state.
 double bytes_of(const std::optional<ModelState>& state, const StateBytes& bytes) {
   return state ? bytes.of(*state) : std::numeric_limits<double>::infinity();
 }

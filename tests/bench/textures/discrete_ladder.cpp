@@ -15,7 +15,8 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr std::array<double, 7> kRungs = {0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1};  // of the faces
+// Numbers of faces of the rungs, as shares of all faces.
+constexpr std::array<double, 7> kRungs = {0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1};
 
 std::vector<MeshoptInput> simplified(const MeshoptInput& mesh) {
   std::vector<std::size_t> faces;
@@ -31,14 +32,14 @@ std::vector<MeshoptInput> simplified(const MeshoptInput& mesh) {
   return rungs;
 }
 
-// Returns the bits per coordinate of a rung: one fewer if its edges are twice as long as those of
-// the finest rung, which has `bits`.
+// Returns the bits per coordinate of a rung. The finest rung has `bits`. For each doubling of the
+// edge length, a rung has one bit less.
 int bits_of(double share, int bits) {
   constexpr int kFewestBits = 9;
   return std::max(kFewestBits, bits + static_cast<int>(std::ceil(std::log2(share) / 2)));
 }
 
-// Returns the picture of one of the sizes, or the largest if there are fewer.
+// Returns the picture of size number `step`, or the largest picture if there are fewer sizes.
 const SizedPicture& at_step(const std::vector<SizedPicture>& sizes, std::size_t step) {
   return sizes[std::min(step, sizes.size() - 1)];
 }
@@ -74,7 +75,7 @@ DiscreteLadder::DiscreteLadder(const TexturedModel& model, int bits)
   }
 }
 
-// Even sets have the base colours alone; odd sets have the normal maps, too.
+// Even sets have only the base colours. Odd sets also have the normal maps.
 std::vector<Picture> DiscreteLadder::pictures_of(std::size_t set) const {
   std::vector<Picture> pictures(sizes_.size());
   const auto add = [&](const std::vector<std::uint32_t>& numbers) {

@@ -12,31 +12,31 @@
 
 namespace vitrine::bench {
 
-// The geometry of a state is a rung, from 1 % to all faces. Its pictures are those of base colours,
-// or those and the normal maps, all with the same side. Pictures that the renderer does not show
-// are left out.
+// The geometry of a state is a rung, from 1 % of the faces to all faces. Its pictures are either
+// the base colours, or the base colours and the normal maps, all with the same side. Pictures that
+// the renderer does not show are left out.
 class DiscreteLadder {
  public:
-  // `bits` are those per coordinate of the finest rung. Coarser rungs have fewer.
+  // `bits` is the number of bits per coordinate of the finest rung. Coarser rungs have fewer bits.
   DiscreteLadder(const TexturedModel& model, int bits);
 
   double ssim(const AppearanceReference& reference, const ModelState& state) const;
 
-  // Bytes of single files: each state is fetched alone.
+  // Returns the bytes of each state if the state is fetched alone, as a single file.
   StateBytes single_files() const;
-  // Bytes of a client that fetches every rung up to that of the state, and every size of its
-  // pictures, one after the other.
+  // Returns the bytes for a client that fetches, one after the other, every rung up to the rung of
+  // the state, and every size of the state's pictures.
   StateBytes one_after_the_other() const;
 
  private:
-  using Sizes = std::vector<SizedPicture>;  // ascending
+  using Sizes = std::vector<SizedPicture>;  // in ascending order of size
   std::vector<Picture> pictures_of(std::size_t set) const;
   std::vector<double> picture_bytes(bool has_smaller) const;
 
-  Texturing texturing_;  // without faces and pictures
+  Texturing texturing_;  // texturing of the model without its faces and pictures
   std::vector<FacedMesh> rungs_;
   std::vector<double> rung_bytes_;
-  std::vector<std::uint32_t> colours_, normals_;  // numbers of the pictures
+  std::vector<std::uint32_t> colours_, normals_;  // indices of the pictures
   std::vector<Sizes> sizes_;                      // per picture; empty if it is not shown
   std::size_t steps_ = 0;                         // number of sizes
 };

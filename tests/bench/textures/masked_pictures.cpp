@@ -42,7 +42,8 @@ AtlasPicture to_atlas(const Picture& picture, bool is_srgb) {
   return out;
 }
 
-// Marks the texels that a face touches. A picture repeats outside its borders.
+// Marks the texels that a face touches. Coordinates outside the picture wrap around, because the
+// picture repeats.
 void cover(const TextureMap& map, const std::array<TextureCoordinates, 3>& corners,
            AtlasPicture& atlas) {
   const auto side = static_cast<std::int32_t>(atlas.side);

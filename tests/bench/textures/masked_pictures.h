@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a source as WebP files, for the peers.
+// The pictures of a source as WebP files, in the form in which competing formats use them.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,22 @@
 
 namespace vitrine::bench {
 
-inline constexpr int kPictureQuality = 80;        // as of our coarse pictures
-inline constexpr std::uint32_t kLeastSide = 256;  // of a peer's smallest picture
+// Quality with which the pictures are written as WebP files.
+inline constexpr int kPictureQuality = 80;
+// least side, in pixels, of a picture for the competing formats
+inline constexpr std::uint32_t kLeastSide = 256;
 
 struct SizedPicture {
-  std::uint32_t side = 0;  // pixels
+  std::uint32_t side = 0;  // width and height in pixels
   std::vector<std::uint8_t> file;
 };
 
-// Returns picture number `picture` of a model and smaller ones, each with half the side of the
-// next, down to kLeastSide; the smallest first. Texels outside all charts are filled smoothly, as
-// in our pictures. Fails if the picture is not square.
+// Returns picture number `picture` of a model, and smaller versions down to kLeastSide, the
+// smallest first. Each has half the side of the next. Texels outside all charts are filled
+// smoothly, as in the pictures of a .pmesh. Fails if the picture is not square.
 std::vector<SizedPicture> masked_pictures(const TexturedModel& model, std::uint32_t picture);
 
-// Returns picture number `picture` of a model as it is.
+// Returns picture number `picture` of a model, unchanged.
 std::vector<std::uint8_t> unmasked_picture(const TexturedModel& model, std::uint32_t picture);
 
 // Returns the numbers of the pictures that some material uses, for one of these maps.

@@ -9,12 +9,13 @@
 
 namespace vitrine::bench {
 
-// Compares sizes: of texture coordinates with those of Draco, of positions with those of the same
-// model without texture, and of whole files with Draco's and unmasked pictures.
+// Makes three comparisons of sizes. Texture coordinates are compared with those in Draco files.
+// Positions are compared with those of the same model without texture. Whole files are compared
+// with Draco files that have unmasked pictures.
 void sizes(Report& report, const std::vector<TexturedModel>& models);
 
-// Compares the bytes at which the model looks like the source with those of a ladder of separate
-// files (discrete_ladder.h).
+// Compares two numbers of bytes: those after which the model looks like the source, and those that
+// a ladder of separate files (discrete_ladder.h) needs for the same similarity.
 void appearance(Report& report, const TexturedModel& model);
 
 }  // namespace vitrine::bench

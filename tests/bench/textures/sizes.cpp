@@ -9,9 +9,12 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kMaxCoordinates = 0.75;  // geometric mean of the ratios to Draco's coordinates
-constexpr double kMaxPositions = 1.03;    // ratio to the bytes of the same model without texture
-constexpr double kMaxWhole = 0.9;         // ratio to Draco's bytes and those of unmasked pictures
+// Largest accepted geometric mean of the ratios of our coordinates' bytes to those of Draco.
+constexpr double kMaxCoordinates = 0.75;
+// Largest accepted ratio of the positions' bytes to those in the same model without texture.
+constexpr double kMaxPositions = 1.03;
+// Largest accepted ratio of the file's bytes to those of a Draco file with unmasked pictures.
+constexpr double kMaxWhole = 0.9;
 
 double bytes_of_pictures(const TexturedModel& model) {
   double sum = 0;
@@ -27,7 +30,7 @@ double bytes_of_geometry(Manifest manifest) {
   return static_cast<double>(write_header(manifest).size() + body);
 }
 
-// Returns the ratio of the bytes of texture coordinates to Draco's.
+// Returns the ratio of the bytes of our texture coordinates to those of Draco.
 double compare(Report& report, const TexturedModel& model) {
   const Manifest textured = model.build(kBits).report.manifest;
   const Manifest bare = model.build_untextured(textured.has(Semantic::kColour)).report.manifest;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The states of a model: each has some detail of the geometry and a set of pictures. Finds the
-// cheapest state that looks good enough, and measures few states on the way.
+// The states of a model. A state is a level of detail of the geometry and a set of pictures. Finds
+// the cheapest state that is similar enough to the source, and measures few states for this.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 namespace vitrine::bench {
 
 struct ModelState {
-  std::size_t geometry = 0;  // from coarse to fine
-  std::size_t pictures = 0;  // the number of a set of pictures, in any order
+  std::size_t geometry = 0;  // level of detail, from coarse to fine
+  std::size_t pictures = 0;  // number of a set of pictures; the sets may be in any order
 
   auto operator<=>(const ModelState&) const = default;
 };
 
-// Bytes of each detail of the geometry, ascending, and of each set of pictures.
+// Bytes of each level of detail of the geometry, in ascending order, and of each set of pictures.
 struct StateBytes {
   std::vector<double> geometry, pictures;
 
@@ -37,8 +37,8 @@ class StateGrid {
 
   double ssim(const ModelState& state);
 
-  // Returns the state with the fewest bytes whose similarity is at least `ssim`. Returns nullopt if
-  // there is none. Assumes that finer geometry never looks worse with the same pictures.
+  // Returns the state with the fewest bytes whose similarity is at least `ssim`, or nullopt if
+  // there is no such state. Assumes that finer geometry never looks worse with the same pictures.
   std::optional<ModelState> cheapest(double ssim, const StateBytes& bytes);
 
   // Returns the first state of a path whose similarity is at least `ssim`. Assumes that no state

@@ -14,8 +14,8 @@
 namespace vitrine::bench {
 namespace {
 
-// As in web/src/three: the level after which the viewer fetches pictures, and the texels of a
-// picture's side for each pixel that the model measures on the screen.
+// The rules of the viewer (web/src/three): the level after which it fetches pictures, and the
+// number of texels on a picture's side per pixel of the model's size on the screen.
 constexpr std::uint32_t kLevelBeforePictures = 2;
 constexpr double kSharpness = 1.5;
 
@@ -80,7 +80,7 @@ double StreamedModel::ssim(const AppearanceReference& reference, const ModelStat
   }
   const Textures textures(texturing_of(refiner, set.size() > 1), std::move(pictures));
   TriangleMesh mesh = refiner.display_mesh();
-  mesh.attributes.colours.clear();  // the picture contains them
+  mesh.attributes.colours.clear();  // the picture contains the colours
   return checked(reference.compare({.mesh = mesh, .textures = &textures})).ssim;
 }
 
@@ -109,7 +109,7 @@ std::vector<ModelState> StreamedModel::viewer_path() const {
     return manifest_.texture.pictures[set[0]].side >= kSharpness * kViewSize;
   };
   const auto wanted = std::ranges::find_if(picture_sets_, is_wanted);
-  const std::size_t step = picture_sets_.back().size();  // the sets of one size
+  const std::size_t step = picture_sets_.back().size();  // number of sets per size of pictures
   const std::size_t first = wanted == picture_sets_.end()
                                 ? picture_sets_.size() - step
                                 : static_cast<std::size_t>(wanted - picture_sets_.begin());

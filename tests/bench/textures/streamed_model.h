@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The states that a visitor of a `.pmesh` sees while it is fetched.
+// The states that a visitor sees while a `.pmesh` is being fetched.
 #pragma once
 
 #include <vector>
@@ -24,14 +24,14 @@ class StreamedModel {
   StateBytes bytes() const;
   // Returns the state with all chunks and the finest pictures.
   ModelState finest() const;
-  // Returns the states in the order in which the viewer reaches them, if it shows the model in the
-  // size of a measured view.
+  // Returns the states in the order in which the viewer reaches them if it shows the model as large
+  // as a measured view.
   std::vector<ModelState> viewer_path() const;
 
  private:
   std::vector<std::uint8_t> file_;
   Manifest manifest_;
-  std::vector<std::vector<std::size_t>> picture_sets_;  // numbers of the manifest's pictures
+  std::vector<std::vector<std::size_t>> picture_sets_;  // indices into the manifest's pictures
 };
 
 }  // namespace vitrine::bench

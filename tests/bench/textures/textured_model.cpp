@@ -65,7 +65,7 @@ std::optional<TexturedModel> read_model(const fs::path& path) {
   }
   RepairedMesh repaired = checked(repair(model.imported));
   model.mesh = std::move(repaired.mesh);
-  model.mesh.attributes.colours.clear();  // the pictures contain them
+  model.mesh.attributes.colours.clear();  // the pictures contain the colours
   model.texturing = std::move(repaired.texturing);
   return model;
 }

@@ -22,8 +22,8 @@ struct TexturedModel {
   TriangleMesh mesh;
   Texturing texturing;
 
-  // Builds the `.pmesh`. `bits` are those per coordinate; 0 chooses the number as `vitrine build`
-  // does.
+  // Builds the `.pmesh`. `bits` is the number of bits per coordinate; 0 chooses the number in the
+  // same way as `vitrine build`.
   BuildResult build(int bits) const;
   // Builds the `.pmesh` of the same mesh without texturing, with kBits bits per coordinate, and
   // with vertex colours if `has_colours`.
@@ -33,8 +33,8 @@ struct TexturedModel {
 };
 
 // Returns the textured models that `path` names: a file, or all files of a folder, smallest first.
-// Leaves out models without a picture of base colours, and (with a message on the standard error)
-// models with two sets of texture coordinates. Throws if none is left.
+// Leaves out models without a picture of base colours. Also leaves out models with two sets of
+// texture coordinates, and prints a message to standard error for each. Throws if no model is left.
 std::vector<TexturedModel> read_textured_models(const std::filesystem::path& path);
 
 }  // namespace vitrine::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh as glTF has it: each vertex has one pair of texture coordinates and one material.
+// A mesh in the form of glTF: each vertex has one pair of texture coordinates and one material.
 #pragma once
 
 #include "bench/codec/peers.h"
@@ -8,7 +8,8 @@
 
 namespace vitrine::bench {
 
-inline constexpr std::uint32_t kWedgeAttributes = 3;  // u, v and the number of the material
+// number of attributes: u, v and the index of the material
+inline constexpr std::uint32_t kWedgeAttributes = 3;
 
 // Splits the vertices of a mesh at the seams of its texture coordinates and materials.
 MeshoptInput wedge_mesh(const TriangleMesh& mesh, const Texturing& texturing);

@@ -179,7 +179,7 @@ TEST(DrawAtlas, NeedlesAndFacesWithoutAreaGetRoomInThePlane) {
 }
 
 TEST(DrawAtlas, FacesThatAreNoManifoldAreCutApart) {
-  // three faces at one edge, a face twice, and a face that repeats a vertex
+  // Three faces share an edge, one face occurs twice, and one face repeats a vertex.
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}},
                   {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}, {0, 1, 2}, {3, 3, 4}}};
   const Atlas atlas = mesh.draw();

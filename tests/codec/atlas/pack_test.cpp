@@ -13,7 +13,7 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-// Random numbers in [0, 1) that are the same with every standard library.
+// Random numbers in [0, 1). They are the same with every implementation of the standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -103,10 +103,10 @@ TEST(BaseMesh, RefusesWhatIsNoEdgebreakerMesh) {
   auto bytes = encode_base(random_base(7))->bytes;
   EXPECT_FALSE(decode_base({}, manifest));
   EXPECT_FALSE(decode_base(std::span(bytes).first(5), manifest));
-  bytes[8] = 0;  // Draco's sequential method instead of edgebreaker
+  bytes[8] = 0;  // selects Draco's sequential method instead of edgebreaker
   EXPECT_FALSE(decode_base(bytes, manifest));
   bytes[8] = 1;
-  bytes[7] = 0;  // a point cloud instead of a mesh
+  bytes[7] = 0;  // states a point cloud instead of a mesh
   EXPECT_FALSE(decode_base(bytes, manifest));
 }
 
@@ -124,7 +124,7 @@ TEST(BaseMesh, NoPrefixOfOneIsRead) {
 TEST(BaseMesh, AnotherVariantOfEdgebreakerIsNotSupported) {
   const BaseMesh base = random_base(7);
   auto bytes = encode_base(base)->bytes;
-  bytes[11] = 2;  // symbols coded by the valences of vertices
+  bytes[11] = 2;  // states that symbols are coded by the valences of vertices
   const auto decoded = decode_base(bytes, manifest_of(base));
   ASSERT_FALSE(decoded);
   EXPECT_EQ(decoded.error().code, ErrorCode::kUnsupported);

@@ -15,7 +15,8 @@ struct Flat {
   std::vector<Vec2> at;
 };
 
-// A grid of n x n squares with sides of `side`, each two triangles.
+// Returns a flat grid of n x n squares. Each square has sides of length `side` and consists of two
+// triangles.
 Flat grid(std::uint32_t n, double side) {
   Flat flat;
   for (std::uint32_t j = 0; j <= n; ++j) {

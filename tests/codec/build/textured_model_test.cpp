@@ -158,8 +158,9 @@ TEST(TexturedModel, TheGlbOfALevelHasItsCoordinatesAndAPictureThatFits) {
   }
 }
 
-// Returns a torus as GLB whose halves have different materials. Its pictures are in both sets of
-// coordinates; the second one tiles. `move` is added to the first coordinate.
+// Returns a torus as GLB. Its two halves have different materials. One picture uses the first set
+// of texture coordinates, the other the second set, whose coordinates exceed 1. `move` is added to
+// the first coordinate.
 Bytes source_glb(float move = 0) {
   ImportedMesh source = textured_torus(60, 30, 64);
   Texturing& t = source.texturing;

@@ -77,7 +77,7 @@ std::uint64_t nodes_visited(const TriangleMesh& mesh) {
 TEST(SlenderSurface, ASearchVisitsHardlyMoreNodesInALargerFan) {
   for (const auto make : {fan, pages}) {
     const std::uint64_t few = nodes_visited(make(4'000)), many = nodes_visited(make(64'000));
-    EXPECT_LE(many, 5 * few);  // with boxes along the coordinate axes alone: 16 times as many
+    EXPECT_LE(many, 5 * few);  // 16 * few with axis-aligned boxes alone
     EXPECT_LE(many, 600u);
   }
 }
@@ -143,7 +143,7 @@ TEST(SlenderSurface, TheErrorOfAFanIsFound) {
     half.faces.resize(2'000);
     return half;
   }());
-  EXPECT_GE(lost.max_error, 0.999);  // the tip of a lost page is that far from the edge
+  EXPECT_GE(lost.max_error, 0.999);  // the tip of a lost page is 1 away from the edge
   EXPECT_LE(lost.max_error, 1.05);
 }
 

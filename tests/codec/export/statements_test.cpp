@@ -87,11 +87,12 @@ TEST(Statements, AnStlSaysWhatFitsAndIsNeverTakenForTextOrColours) {
       << "the first byte of ö would fit";
 }
 
-// Texts that would end a comment, add elements, continue a line, close a string or state a unit.
+// Texts that would end a comment, add elements, continue a line, close a string or state a unit if
+// writers did not escape them.
 TEST(Statements, NoTextCanBreakAFile) {
   constexpr char kHostile[] =
       "\nend_header\nelement face 9\r\nf 1 2 3\0\x1b\x7f\xff\"]}{ units: in \\\n\\";
-  const std::string hostile(kHostile, sizeof kHostile - 1);  // it contains a zero byte
+  const std::string hostile(kHostile, sizeof kHostile - 1);  // the text contains a zero byte
   const FileDescription about = {.title = hostile,
                                  .creator = hostile,
                                  .rights = "\xC2\x85 \u2028 f 1 2 3",

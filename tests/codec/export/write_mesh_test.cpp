@@ -82,7 +82,7 @@ std::vector<MeshFile> textured_files(const TriangleMesh& mesh, const Texturing& 
   return files ? std::move(*files) : std::vector<MeshFile>(1);
 }
 
-// Reads the first file. The other files are its companions.
+// Reads the first file, with the other files as its companions.
 ImportedMesh read_files(const std::vector<MeshFile>& files) {
   ReadOptions options;
   for (std::size_t i = 1; i < files.size(); ++i)
@@ -265,7 +265,7 @@ void expect_near(const std::vector<Vec3>& found, const std::vector<Vec3>& expect
     EXPECT_LT(length(found[i] - expected[i]), 1e-4) << i;
 }
 
-// A pyramid of unequal faces: their normals count by area.
+// A pyramid of unequal faces, for normals that are weighted by area.
 TriangleMesh skew_tetrahedron() {
   TriangleMesh mesh = coloured_tetrahedron();
   mesh.positions[3] = {0, 0, 3};

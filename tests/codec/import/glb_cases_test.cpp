@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files in the style of real exporters: instances, skins, morph targets, sparse accessors,
+// Reads glTF files like those of real exporters: instances, skins, morph targets, sparse accessors,
 // materials of other models, and small faults of the container.
 #include "codec/import/textured_gltf.h"
 
@@ -21,7 +21,7 @@ using vitrine::testing::refusal;
 using vitrine::testing::textured;
 using Json = nlohmann::json;
 
-// A triangle with indices in a node of a scene.
+// A scene with one node that shows a triangle with indices.
 struct Model : GlbBuilder {
   explicit Model(std::size_t corners = 3)
       : positions(floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, corners)),
@@ -53,7 +53,8 @@ TEST(GlbCases, InstancesOfANodeAreAllRead) {
   EXPECT_EQ(read_text(model.file()).mesh.faces.size(), 3u);
   EXPECT_THAT(positions_of(model), Contains(Vec3{1, 0, 5}));
 
-  // A quarter turn about z, in bytes that are not marked as normalised; then a factor of 2.
+  // The second instance is rotated by a quarter turn about z. The rotation is stored in bytes that
+  // are not marked as normalised. The third instance is scaled by 2.
   model.document["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
   const std::string turns = bytes_of<std::int8_t>({0, 0, 0, 127, 0, 0, 90, 90, 0, 0, 0, 127});
   attributes["ROTATION"] = model.accessor("VEC4", 5120, 3, {{"bufferView", model.view(turns)}});

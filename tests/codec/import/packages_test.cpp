@@ -54,7 +54,7 @@ FilesToPack gltf_files() {
           {"license.txt", "Model Information:\n* title: Statue\n"}};
 }
 
-// Returns the files below a folder.
+// Returns the files with their paths prefixed by `folder`, which must end with a slash.
 FilesToPack below(const std::string& folder, FilesToPack files) {
   for (auto& [path, contents] : files)
     path = folder + path;

@@ -170,7 +170,7 @@ TEST(Unpack, ChangedContentsAreRefused) {
   zip[zip.find("contents")] = 'k';
   EXPECT_THAT(fault_of(zip), HasSubstr("damaged"));
   std::string gzip = gzip_of("contents");
-  gzip[gzip.size() - 8] = static_cast<char>(~gzip[gzip.size() - 8]);  // the checksum
+  gzip[gzip.size() - 8] = static_cast<char>(~gzip[gzip.size() - 8]);  // damages the checksum
   EXPECT_THAT(fault_of(gzip), HasSubstr("damaged"));
 }
 

@@ -50,7 +50,7 @@ Polygon spiral(int corners) {
   return numbered(polygon);
 }
 
-// Slanted teeth, much longer than wide.
+// A comb with slanted teeth that are much longer than wide.
 Polygon comb(int corners) {
   Polygon polygon{{0, -1}, {100, -1}};
   for (int i = corners - 2; i-- > 0;)

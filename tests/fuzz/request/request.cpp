@@ -34,7 +34,7 @@ struct Read {
   std::string target;
   RequestHeader header;
   std::string body;
-  std::size_t size = 0;  // bytes of the request
+  std::size_t size = 0;  // length of the request, in bytes
 };
 
 // Passes `text` to the parser as a connection would: the first `piece` bytes, then the rest.

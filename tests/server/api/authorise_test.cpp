@@ -116,7 +116,7 @@ TEST_F(AuthoriseTest, ARevokedTokenIsWorthlessAtOnce) {
   const std::string field = "Authorization: Bearer " + token.text + "\r\n";
   EXPECT_EQ(get("/viewer", field).status, 200);
   ASSERT_TRUE(server_.catalogue().revoke_token(token.id));
-  server_.services().tokens.forget();  // as the route that revokes a token does
+  server_.services().tokens.forget();  // the route that revokes a token does the same
   EXPECT_EQ(get("/viewer", field).status, 401);
   EXPECT_EQ(get("/none", field).status, 401) << "a caller with a wrong token gets an error";
 }

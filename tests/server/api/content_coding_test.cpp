@@ -156,7 +156,8 @@ TEST_F(AcceptedCoding, OnlySuccessfulPublicResponsesAreCompressed) {
   EXPECT_FALSE(is_compressed(json_of(2'000)));
 }
 
-// A JSON text of more than the largest size that a thread serving connections compresses.
+// Returns a JSON text that is a byte larger than the largest text that a thread serving connections
+// compresses.
 Response show_large(const Request&, Services&) {
   return revalidated("application/json", std::string(64 * 1024 + 1, ' '));
 }
@@ -195,7 +196,7 @@ class PackedJson : public testing::Test {
   }
 
   test::LocalServer server_{public_routes()};
-  std::string id_;  // of a published model
+  std::string id_;  // ID of a published model
   const std::string gzip_ = "Accept-Encoding: gzip\r\n";
 };
 

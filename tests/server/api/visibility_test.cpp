@@ -147,7 +147,7 @@ class World {
   std::string model_path() const { return "/api/v1/models/" + model; }
   ModelId model_id() const { return *ModelId::parse(model); }
 
-  // Returns the bytes of the file that visitors may read. Empty if there is none.
+  // Returns the bytes of the file that visitors may read. Returns no bytes if they may read none.
   Bytes visible_file() {
     const auto record = server.catalogue().find(model_id()).value();
     if (!record || record->state != ModelState::kPublished) return {};

@@ -304,7 +304,7 @@ std::size_t count_open_objects(pid_t process) {
   return count;
 }
 
-// Nobody sends a request after the changes.
+// The daemon must close the files even if no client sends a request after the changes.
 TEST(CachedFiles, OfModelsThatWereWithdrawnReplacedOrRemovedAreClosed) {
   ServedFolder folder;
   std::vector<std::string> ids;

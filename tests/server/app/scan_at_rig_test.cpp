@@ -213,7 +213,7 @@ TEST_F(DaemonAtRig, TheWalkthroughInTheReadmeEndsWithAPublicModel) {
 class DaemonAtSlowRig : public DaemonAtRig {
  protected:
   static constexpr int kFewSteps = 8;
-  static constexpr double kOneStep = 360.0 / kFewSteps;  // degrees
+  static constexpr double kOneStep = 360.0 / kFewSteps;  // angle of a step, in degrees
 
   DaemonAtSlowRig() : DaemonAtRig({"--degrees-per-second", fmt::format("{}", kOneStep)}) {}
 

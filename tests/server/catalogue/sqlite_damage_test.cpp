@@ -170,7 +170,7 @@ TEST_F(SqliteDamage, AFlippedBitIsFoundOrChangesNoContent) {
   for (std::size_t page = 0; page < pages(); ++page) {
     for (std::uint64_t flip = 0; flip < flips && !HasFailure();) {
       const std::size_t at = page * kPageBytes + random() % kPageBytes;
-      if (bytes_[at] == 0 && random() % 8 > 0) continue;  // most zeros are unused bytes
+      if (bytes_[at] == 0 && random() % 8 > 0) continue;  // most zero bytes are unused
       ++flip;
       const unsigned bit = random() % 8;
       SCOPED_TRACE("bit " + std::to_string(bit) + " of byte " + std::to_string(at));
@@ -181,9 +181,9 @@ TEST_F(SqliteDamage, AFlippedBitIsFoundOrChangesNoContent) {
   }
 }
 
-// These values are in a table and in an index. A change of either is found.
+// The table and an index both contain these values. A change of either copy is found.
 TEST_F(SqliteDamage, AFlippedBitInAValueIsFound) {
-  const std::string hash = {7, 5};  // of the token that fill() adds as number 7
+  const std::string hash = {7, 5};  // begins the hash of token number 7, which fill() adds
   for (const std::string& value : {std::string("Bust 7"), hash + std::string(30, '\0')}) {
     const auto first = bytes_.find(value);
     ASSERT_NE(first, bytes_.npos);

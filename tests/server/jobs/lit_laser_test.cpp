@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests how long a laser stays on that an operator has lit, and what a station says of laser and
-// motor.
+// Tests how long a laser stays on after an operator has switched it on, and which states of laser
+// and motor a station reports.
 #include <gtest/gtest.h>
 
 #include <future>

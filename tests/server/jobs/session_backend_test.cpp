@@ -10,7 +10,8 @@
 namespace vitrine::test {
 namespace {
 
-// Returns a calibration from points between (0, 0) and (400, 300) in a picture of 800 x 600.
+// Returns a calibration for pictures of 800 x 600 pixels. Its points are all in the upper left
+// quarter.
 Calibration of_a_quarter(const std::string& camera) {
   std::vector<Correspondence> points;
   for (int v = 0; v <= 300; v += 50) {

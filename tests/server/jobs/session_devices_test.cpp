@@ -104,7 +104,7 @@ TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsUndone) {
   };
   EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
   world_.meanwhile = {};
-  backend_.allow(0);  // as requested by a client that does not know of the stop
+  backend_.allow(0);  // a client that does not know of the stop requests this
   EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
   EXPECT_EQ(world_.degrees, 0);
   EXPECT_TRUE(backend_.picture());

@@ -88,7 +88,7 @@ class SharedJobs : public testing::Test {
     ASSERT_TRUE(catalogue_->drop_leases("first"));
     second_.begin();
   }
-  // Returns the queue of another daemon, whose jobs end as soon as they run.
+  // Returns the queue of a third daemon. Each of its jobs ends as soon as it runs.
   JobQueue scanning(TakenJobs taken) {
     taken.holder = "scans";
     return {*catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; }, taken};

@@ -19,7 +19,7 @@ namespace {
 // after a round trip.
 class Link {
  public:
-  double rate = 100'000;  // bytes per second
+  double rate = 100'000;  // rate of the link, in bytes per second
   double delay = 0.02;    // round trip, seconds
   std::size_t busy_streams = 1;
 

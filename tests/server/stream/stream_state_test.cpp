@@ -9,7 +9,7 @@
 namespace vitrine::server {
 namespace {
 
-constexpr std::uint32_t kChunk = 40'000;  // bytes: two whole slices and a part of a third
+constexpr std::uint32_t kChunk = 40'000;  // size in bytes: two whole slices and a part of a third
 constexpr std::uint32_t kHead = 1'000;
 
 // Returns a manifest whose levels have one region and 100, 200, 300 … faces.

@@ -8,7 +8,7 @@
 namespace vitrine::test {
 
 struct CertificateText {
-  std::string certificate, key;  // PEM
+  std::string certificate, key;  // both in PEM format
 };
 
 // Returns a certificate valid from `from` to `to`, in seconds from now.

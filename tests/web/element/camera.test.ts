@@ -44,7 +44,10 @@ describe("the distance that fits", () => {
   };
   const cases = Object.keys(shapes).flatMap((name) => [0.5, 1, 1.8].map((aspect) => [name, aspect] as const));
 
-  /** Returns the largest part of half the view's width or height that a shape covers, seen from a direction. */
+  /**
+   * Returns the largest distance of a vertex from the view's centre, horizontally or vertically.
+   * The unit is half the view's width or height. The camera looks from `direction`.
+   */
   function filled(positions: number[], direction: Vector3, distance: number, aspect: number): number {
     const camera = new PerspectiveCamera(kFieldOfView, aspect, 0.001, 1000);
     camera.position.copy(direction).setLength(distance);

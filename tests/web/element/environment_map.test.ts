@@ -5,7 +5,11 @@ import { DataUtils } from "three";
 
 type Triple = [number, number, number];
 
-/** The columns and rows of a face of the sharpest level, 32 texels wide, and of a blurred level, 16 texels wide. */
+/**
+ * Indices of texels. A face of the sharpest level has 32 x 32 texels; `u` and `v` are positions in
+ * the face, from 0 to 1. A face of a blurred level has 16 x 16 texels; the index is that of its
+ * middle.
+ */
 const sharp = (face: number, u = 0.5, v = 0.5) => texel(32 * (face % 3) + 1 + 30 * u, (face > 2 ? 32 : 0) + 1 + 30 * v);
 const blurred = (level: number, face: number) => texel(48 * level + 16 * (face % 3) + 8, 64 + (face > 2 ? 16 : 0) + 8);
 const texel = (x: number, y: number) => 4 * (Math.floor(y) * kMapWidth + Math.floor(x));
@@ -59,7 +63,8 @@ describe("the room", () => {
   });
 
   test("has white walls and boxes that the lamp lights", () => {
-    // The floor below the eye: 15.05 from the lamp at the intensity 400, seen at a right angle but for the lamp's offset.
+    // The white floor below the eye. The lamp of intensity 400 is 15.05 above the floor, and 0.5
+    // aside in x and in z.
     const far = Math.hypot(0.5, 15.05, 0.5), falloff = (1 - (far / 28) ** 4) ** 2 / far ** 2;
     expect(towards(0, -1, 0)).toBeCloseTo((400 * falloff * 15.05) / far / Math.PI, 6);
     expect(towards(-10.906, -4.5, 1.846)).toBeGreaterThan(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds pages with each bundler, as web/README.md says. The functions take the folder of an Installed, the scripts of pages below it,
-// and the folder of the result.
+// Builds pages with each bundler, as web/README.md says. `folder` is the folder of an Installed.
+// Entries are paths of the pages' scripts below `folder`. The bundles are written to `outDir`.
 import vue from "@vitejs/plugin-vue";
 import { build as esbuild } from "esbuild";
 import { cpSync } from "node:fs";
@@ -15,7 +15,7 @@ const kFrameworks = {
   plugins: [vue({ template: { compilerOptions: { isCustomElement: (tag) => tag === "progressive-mesh" } } })],
 };
 
-/** Builds several pages at once: each has the file name of its script. */
+/** Builds several pages at once. The bundle of each page has the file name of the page's script. */
 export async function buildWithVite(folder, entries, outDir) {
   const input = entries.map((entry) => join(folder, entry));
   await build({ ...kQuiet, ...kFrameworks, root: folder, build: { outDir, rollupOptions: { input, output: { entryFileNames: "[name].js" } } } });
@@ -29,7 +29,10 @@ export async function buildWithWebpack(folder, entry, outDir) {
   if (stats.hasErrors()) throw new Error(stats.toString("errors-only"));
 }
 
-/** Leaves `new URL(…, import.meta.url)` as it is, as esbuild does, so the viewer's files go to `assets`, usually beside the bundle. */
+/**
+ * esbuild does not change `new URL(…, import.meta.url)`, so the viewer's files must be copied. They
+ * go to `assets`, by default beside the bundle.
+ */
 export async function buildWithEsbuild(folder, entry, outDir, assets = outDir) {
   await esbuild({ entryPoints: [join(folder, entry)], outdir: outDir, bundle: true, splitting: true, format: "esm", logLevel: "error" });
   for (const name of ["progressive-mesh-worker.js", "progressive-mesh.wasm"]) {
@@ -37,7 +40,9 @@ export async function buildWithEsbuild(folder, entry, outDir, assets = outDir) {
   }
 }
 
-/** Builds a script for a server: a module that exports what `entry` exports. */
+/**
+ * Builds a script for a server. The result is a CommonJS module that exports what `entry` exports.
+ */
 export async function buildForServer(folder, entry, outfile) {
   await esbuild({ entryPoints: [join(folder, entry)], outfile, bundle: true, platform: "node", format: "cjs", jsx: "automatic", logLevel: "error", logOverride: { "empty-import-meta": "silent" } });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs the npm package as it would be published, and installs it in a folder with the pinned packages of this one.
+// Packs the npm package as it would be published, and installs it in a temporary folder. The other
+// packages there are the pinned ones of this test's node_modules.
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, mkdtempSync, readdirSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -42,7 +43,10 @@ export class Installed {
     return unpacked;
   }
 
-  /** Runs a program of the installed packages in the folder. Throws if it fails. Returns its output. */
+  /**
+   * Runs a program of the installed packages in the project's folder. Throws if the program fails.
+   * Returns its output.
+   */
   run(program, ...args) {
     return execFileSync(join(here, "node_modules/.bin", program), args, { cwd: this.folder, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
   }

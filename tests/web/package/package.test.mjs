@@ -110,7 +110,10 @@ async function visit(url) {
   return { viewer, event: (await viewer.seen()).find(({ type }) => type === "load" || type === "error") };
 }
 
-/** Checks that the page shows its models without errors and with a single three.js. `mark` is a condition of the page itself. */
+/**
+ * Checks that the page shows its models without errors or warnings, such as that of a second instance of three.js. An
+ * element of the page must match the selector `mark`.
+ */
 async function checkPage(url, mark) {
   const { viewer, event } = await visit(url);
   assert.deepEqual(event, { type: "load", detail: null });

@@ -95,7 +95,10 @@ export class Api {
     return (await answer.json()) as Scanner;
   }
 
-  /** Switches a laser off, even while the browser leaves the page. Errors are ignored, because the daemon switches the laser off itself after a minute. */
+  /**
+   * Switches a laser off, even while the browser leaves the page. Ignores errors, because the
+   * daemon switches the laser off by itself after a minute.
+   */
   putOut(scanner: string): void {
     const headers = { ...this.headers, "Content-Type": "application/json" };
     void fetch(`${kRoot}/scanners/${scanner}/laser`, { method: "POST", headers, body: '{"on":false}', keepalive: true }).catch(() => undefined);

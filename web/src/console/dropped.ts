@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes uploads of the files and folders that an operator drops. A model and the files that it
-// names, such as pictures, become one upload: a tar.
+// Turns the files and folders that an operator drops into uploads. A model and the files that it
+// names, such as pictures, become one upload: a tar file.
 import { isMeshName, isUploadName } from "./mesh-formats.ts";
 import { tarOf } from "./tar.ts";
 
@@ -41,8 +41,8 @@ const isHidden = ({ path }: Dropped): boolean => path.split("/").some((part) => 
 
 /**
  * Returns the files to upload. If files other than models and packages were dropped, each model
- * becomes a tar with all these files. The same drop gives the same tar, so that an interrupted
- * upload can be resumed.
+ * becomes a tar file with all these files. Dropping the same files again gives the same tar, so
+ * that an interrupted upload can be resumed.
  */
 export function uploadsOf(dropped: Dropped[]): File[] {
   const seen = dropped.filter((one) => !isHidden(one)).sort((a, b) => (a.path < b.path ? -1 : 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the states of the jobs up to date. Browsers allow only six connections to a server. So a
-// few jobs are followed as event streams, and the other jobs are polled.
+// Keeps the states of the jobs up to date. Browsers allow only six connections to a server.
+// Therefore only a few jobs are followed as event streams; the other jobs are polled.
 import { isOver, type Job, type JobListPage } from "./types.ts";
 
 const kFollowed = 2;

@@ -10,7 +10,7 @@ const kPackageSuffixes = [".zip", ".tar", ".gz", ".tgz"];
 
 export const kUploadNames = [...MESH_FORMATS.map(({ name }) => name), "PMESH", "ZIP", "TAR", "GZ"];
 export const kUploadSuffixes = [...kMeshSuffixes, ".pmesh", ...kPackageSuffixes];
-/** The files that a model may name. Others may be dropped, too. */
+/** Types of the files that a model may refer to. Files of other types may be dropped as well. */
 export const kBesideTypes = [".mtl", ".bin", "image/*"];
 
 const endsInOneOf = (name: string, suffixes: string[]): boolean => suffixes.some((suffix) => name.toLowerCase().endsWith(suffix));

@@ -37,7 +37,7 @@ class ModelEditor {
   readonly #title = h("h1", { tabindex: -1 });
   readonly #state = h("span");
   #tag = "";
-  #shown = ""; // state of the model when its viewer was created
+  #shown = ""; // state of the model when the viewer was created
 
   constructor(private readonly visit: Visit, private readonly id: string) {
     this.#path = `/models/${id}`;
@@ -73,7 +73,7 @@ class ModelEditor {
     this.#title.focus();
   }
 
-  /** Shows the new file of a model whose file was replaced. */
+  /** Makes the viewer show the new file after the model's file was replaced. */
   async #again(): Promise<void> {
     this.#shown = "";
     this.#show(await this.#read());

@@ -54,8 +54,8 @@ export function table(caption: string, heads: string[], rows: (string | Node)[][
 
 /**
  * Fills a list with its first page, and adds a button that appends the next page. `ask` returns the
- * rows of the page at `cursor`, and the cursor of the page after that. Resolves to the number of
- * rows on the first page.
+ * rows of the page that starts at `cursor`, and the cursor of the following page. Resolves to the
+ * number of rows on the first page.
  */
 export async function paged(list: HTMLElement, ask: (cursor: string | null) => Promise<{ rows: Node[]; next: string | null }>): Promise<number> {
   const first = await ask(null);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors as the daemon reports them (RFC 9457). An error may list faults; each names a parameter
-// and says what is wrong with it.
+// Errors in the form in which the daemon reports them (RFC 9457). An error may list faults. Each
+// fault names a parameter and describes what is wrong with it.
 export interface Fault {
   parameter: string;
   detail: string;
@@ -12,8 +12,8 @@ export class Problem extends Error {
   }
 
   /**
-   * Reads an error response. If the response is not from the daemon, as with a proxy's error page,
-   * the problem has only the status and its text.
+   * Reads an error response. If the response does not come from the daemon but, for example, from a
+   * proxy, the problem has only the status and its text.
    */
   static async of(answer: Response): Promise<Problem> {
     const body = (await answer.json().catch(() => ({}))) as { title?: string; detail?: string; errors?: Fault[]; request_id?: string };

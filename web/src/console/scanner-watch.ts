@@ -23,7 +23,7 @@ const kUnknown: Power = { laser: "unknown", motor: "unknown", since: null };
 export const isOff = ({ laser, motor }: Power): boolean => laser === "off" && motor === "off";
 export const isUnknown = ({ laser, motor }: Power): boolean => laser === "unknown" || motor === "unknown";
 
-// A daemon of an earlier version does not tell the state.
+// The state is missing in the response of a daemon of an earlier version.
 const powerOf = ({ laser, motor }: Scanner): Power =>
   laser && motor ? { laser: laser.state, motor: motor.state, since: laser.since } : kUnknown;
 
@@ -36,7 +36,7 @@ export class ScannerWatch {
   readonly scanners = new Map<string, Power>();
   /** Called after each change. */
   onChange: () => void = () => undefined;
-  #round = 0; // polls of earlier rounds are outdated
+  #round = 0; // number of the current round; responses to polls of earlier rounds are ignored
 
   constructor(private readonly api: Pick<Api, "get">) {}
 
@@ -54,7 +54,7 @@ export class ScannerWatch {
     }
   }
 
-  /** Ignores the response to a poll that is under way, because the state changes now. */
+  /** Ignores the response to a poll in progress. Call this when a state is about to change. */
   outdate(): void {
     ++this.#round;
   }

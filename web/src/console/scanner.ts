@@ -48,7 +48,7 @@ function preview({ desk, signal }: Visit, path: string): HTMLElement {
 
 function byHand({ desk, signal }: Visit, name: string, path: string): HTMLElement {
   const alert = new Alert(), { api } = desk;
-  let isLit = false; // whether this page has lit the laser
+  let isLit = false; // whether this page has switched the laser on
   const putOut = () => {
     if (isLit) api.putOut(name);
     isLit = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The emergency stop: a button on every page that stops all scanners without confirmation. The
-// banner below it follows from the state of lasers and motors, so it never contradicts that state.
+// The emergency stop: a button on every page that stops all scanners without confirmation. The text
+// of the banner below it is derived from the states of lasers and motors, so it never contradicts
+// them.
 import { h } from "../ui/dom.ts";
 import type { Api } from "./api.ts";
 import { sentence } from "./forms.ts";
@@ -15,7 +16,10 @@ const kBetween = 1000;
 export class EmergencyStop {
   readonly button = h("button", { type: "button", class: "stop", hidden: true }, texts.stop.button);
   readonly said = h("div", { role: "alert", class: "stopped", hidden: true });
-  /** The phase of the newest stop: "sent" until all scanners have responded, then "over" until something is on again. */
+  /**
+   * The phase of the newest stop: "sent" until all scanners have responded, then "over" until something is on
+   * again.
+   */
   #phase: "none" | "sent" | "over" = "none";
   /** Why scanners did not confirm the stop; empty if all did. */
   #fault = "";
@@ -59,7 +63,7 @@ export class EmergencyStop {
     if (this.#phase === "sent") return this.#say(texts.stop.stopping, "");
     if (states.every(isOff)) return this.#say(texts.stop.done([...scanners.keys()].join(", ")), "good");
     if (this.#fault || states.some(isUnknown)) return this.#say(`${texts.stop.failed} ${this.#fault}`.trim(), "bad");
-    this.#close(); // somebody has switched a laser or a motor on since
+    this.#close(); // a laser or a motor was switched on after the stop
   }
 
   #close(): void {

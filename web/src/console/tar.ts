@@ -14,11 +14,11 @@ const octal = (value: number, digits: number): string => value.toString(8).padSt
 function header(type: "0" | "x", size: number): Uint8Array<ArrayBuffer> {
   const block = new Uint8Array(kBlock);
   const put = (offset: number, text: string) => block.set(encoder.encode(text), offset);
-  put(0, type === "x" ? "pax" : "file"); // the pax record has the path
+  put(0, type === "x" ? "pax" : "file"); // the pax record holds the real path
   put(100, "0000644\0");
   put(124, `${octal(size, 11)} `);
-  put(136, `${octal(0, 11)} `); // time
-  put(148, " ".repeat(8)); // the checksum counts as blanks
+  put(136, `${octal(0, 11)} `); // modification time
+  put(148, " ".repeat(8)); // the checksum is computed as if its own field held spaces
   put(156, `${type}`);
   put(257, "ustar\x0000");
   put(148, `${octal(block.reduce((sum, byte) => sum + byte, 0), 6)}\0`);

@@ -17,7 +17,10 @@ export function spent(seconds: number): string {
   return minutes > 0 ? `${minutes} min` : `${seconds} s`;
 }
 
-/** Writes what part of `whole` is `part`, at most 100 %. A visit over midnight may be complete on a day on which it did not begin. */
+/**
+ * Formats the share of `part` in `whole` as a percentage, at most 100 %. The limit is needed
+ * because a visit over midnight may be complete on a day on which it did not begin.
+ */
 export function percentage(part: number, whole: number): string {
   return whole > 0 ? `${Math.min(Math.round((100 * part) / whole), 100)} %` : "";
 }
@@ -26,7 +29,7 @@ function row(name: Node | string, { visits, seconds, mean_level: level, complete
   return [name, count(visits), spent(seconds), visits > 0 ? spent(Math.round(seconds / visits)) : "", level.toFixed(1), percentage(complete, visits)];
 }
 
-/** Returns the rows of the table: the sum first, then a row for each model. */
+/** Returns the rows of the table: first the totals, then one row for each model. */
 function rows({ models }: Visits): (Node | string)[][] {
   const sum = (of: (model: Visits["models"][number]) => number) => models.reduce((all, model) => all + of(model), 0);
   const visits = sum((model) => model.visits);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a model from the daemon's HTTP API: one request for the head and one URL per chunk, without
-// Range requests. With a token it also reads models that are not public. Their chunk URLs are below
-// the model's own URL.
+// Reads a model from the daemon's HTTP API: one request for the head, and one URL per chunk,
+// without Range requests. With a token, it also reads models that are not public. The chunk URLs of
+// such a model start with the model's own URL.
 import { readAll, unreachable, type ByteRange, type Source } from "./source.ts";
 import { DamagedError, ModelError } from "./types.ts";
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shares a page's memory budget among its models. Each model may use the memory that the others
-// leave free, and always at least an equal share. A model above its limit is coarsened at its next
-// detail request.
+// Shares a page's memory budget among its models. Each model may use the memory that the other
+// models leave free, but always at least an equal share. A model above its limit is coarsened at
+// its next detail request.
 
 export interface ModelSize {
   triangles: number;

@@ -33,8 +33,8 @@ export class Shown {
   /**
    * Returns the change from the previous surface to `surface`. An existing vertex morphs from its
    * previous position. A new vertex morphs from the position of its nearest ancestor in the
-   * previous surface. `parents` has, for each vertex, the vertex that was split to create it. With
-   * `isRenumbered`, vertex indices do not match those of the previous surface, so nothing morphs.
+   * previous surface. `parents` holds, for each vertex, the vertex that was split to create it. If
+   * `isRenumbered`, vertex indices do not match those of the previous surface, so no vertex morphs.
    */
   change(surface: Surface, parents: Uint32Array, isRenumbered: boolean): { change: Change; pieces: Piece[] } {
     const last = this.#last;
@@ -69,7 +69,7 @@ function* copied(part: SurfaceArray, values: NumericArray, width: number, runs: 
 
 /**
  * The source of a `from…` array: the values now and before the change, with `width` numbers per
- * vertex. The `from…` array has `room` numbers per vertex.
+ * vertex. The `from…` array itself has `room` numbers per vertex.
  */
 interface Origin {
   part: SurfaceArray;

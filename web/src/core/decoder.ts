@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Typed interface to the C++ decoder and planner (codec/wasm). Each model has its own WebAssembly
-// instance. So closing a model frees all its memory, and a fault in one model cannot affect
+// instance. Closing a model therefore frees all its memory, and a fault in one model cannot affect
 // another.
 import { kAttributes, kSemantics } from "./attributes.ts";
 import {
@@ -46,7 +46,10 @@ interface Exports {
   texture_coordinates(model: Pointer): Pointer;
 }
 
-/** In the order of the enumerations in codec/format/manifest.h and codec/mesh/texturing.h. */
+/**
+ * The roles and modes, in the order of the enumerations in codec/format/manifest.h and
+ * codec/mesh/texturing.h.
+ */
 const kRoles: readonly PictureRole[] = ["colour", "normal", "surface", "emission"];
 const kAlphaModes: readonly TextureInfo["alphaMode"][] = ["opaque", "mask", "blend"];
 
@@ -97,8 +100,8 @@ export class Decoder {
   }
 
   /**
-   * Starts at the base mesh, given its checked Draco buffer. `atlas` holds its coded texture coordinates. It is empty if the model
-   * has no texture.
+   * Starts at the base mesh, given its checked Draco buffer. `atlas` holds its coded texture coordinates. It
+   * is empty if the model has no texture.
    */
   start(base: Uint8Array, atlas: Uint8Array): void {
     const started = this.#lend(base, (data, size) =>
@@ -157,7 +160,10 @@ export class Decoder {
     this.#adopt();
   }
 
-  /** For each vertex, the vertex that was split to create it. Vertices of the base mesh and of inserted components are their own parents. */
+  /**
+   * For each vertex, the vertex that was split to create it. Vertices of the base mesh and of inserted
+   * components are their own parents.
+   */
   get parents(): Uint32Array {
     return this.#parents;
   }
@@ -282,7 +288,10 @@ export class Decoder {
     };
   }
 
-  /** Reads the end of the summary, which is empty if the model has no texture. */
+  /**
+   * Reads the part of the summary that describes the texture. It is empty if the model has no
+   * texture.
+   */
   #readTexture(numbers: Float64Array): TextureInfo | undefined {
     if (numbers.length === 0) return undefined;
     const at = (i: number) => numbers[i] ?? 0;

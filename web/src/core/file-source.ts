@@ -7,13 +7,16 @@ import { ModelError } from "./types.ts";
 
 /** Bytes of the first request. They are enough for the header and base mesh of most models. */
 const kStart = 32 * 1024;
-/** Bytes that head() waits for. On a slow line, the base mesh may arrive long before the other bytes of the start. */
+/**
+ * Number of bytes that head() waits for. On a slow line, these bytes may arrive long before the
+ * rest of the first response.
+ */
 const kHead = 1024;
 
 export class FileSource implements Source {
   readonly #life = new AbortController(); // aborts the first download
   #download: Download | undefined;
-  #end = 0; // end of the bytes that the first download has
+  #end = 0; // number of bytes that the first download has received
 
   constructor(private readonly url: string) {}
 

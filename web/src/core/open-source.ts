@@ -11,8 +11,8 @@ import { StreamSource } from "./stream-source.ts";
  */
 export function openSource(url: string, transport: Transport, token: string): Source {
   const address = new URL(url);
-  // A model ID has no dot. So /models/bust.pmesh is not a model page, but a file in a folder
-  // "models".
+  // A model ID contains no dot. /models/bust.pmesh is therefore not a model page, but a file in a
+  // folder named "models".
   const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/.]+)\/?$/.exec(address.pathname);
   if (!model) return new FileSource(url);
   const api = `${address.origin}${model[1]}/api/v1`, id = model[2] ?? "";

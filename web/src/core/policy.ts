@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Explains failures that a Content-Security-Policy has caused. The browser hides the cause from the call that fails, and reports it in
-// an event.
+// Explains failures that are caused by a Content-Security-Policy. The browser does not tell the
+// failing call the cause, but reports the cause in an event.
 
 interface Violation {
   blockedURI: string;
@@ -10,7 +10,10 @@ interface Violation {
 export class PolicyWatch {
   #seen: Violation | undefined;
 
-  /** Watches a page or a worker for violations of `directives`; without directives, of all. */
+  /**
+   * Watches a page or a worker for violations of `directives`. If no directives are given, watches
+   * for violations of all directives.
+   */
   constructor(scope: EventTarget, directives?: string[]) {
     scope.addEventListener("securitypolicyviolation", (event) => {
       const violation = event as Event & Violation;
@@ -20,8 +23,9 @@ export class PolicyWatch {
   }
 
   /**
-   * Resolves to the violation seen so far and how to permit the act, or to undefined. Waits for one task, because browsers report a
-   * violation in a task after that of the failure.
+   * Resolves to a description of the violation seen so far and of how to permit the blocked action,
+   * or to undefined. Waits for one task, because browsers report a violation in a task after that
+   * of the failure.
    */
   async reason(): Promise<string | undefined> {
     await new Promise((resolve) => setTimeout(resolve));
@@ -33,10 +37,10 @@ export class PolicyWatch {
   }
 }
 
-/** The source expression of a policy that permits `blockedURI`. */
+/** Returns the source expression with which a policy permits `blockedURI`. */
 function sourceOf(blockedURI: string): string {
   if (blockedURI === "wasm-eval") return "'wasm-unsafe-eval'";
-  if (!blockedURI.includes(":")) return `${blockedURI}:`; // "blob" or "data"
+  if (!blockedURI.includes(":")) return `${blockedURI}:`; // a scheme such as "blob" or "data"
   const { origin } = new URL(blockedURI);
   return origin === location.origin ? "'self'" : origin;
 }

@@ -62,7 +62,7 @@ interface Fetch {
 export class Session {
   readonly #fetches = new Map<number, Fetch>();
   #info: ModelInfo | undefined;
-  #pictures: Uint8Array[] = []; // fetched files, kept for a page that needs another size or loses its graphics memory
+  #pictures: Uint8Array[] = []; // fetched files, kept in case the page needs another size or loses its graphics memory
   #turn = 0;
   #showing: Promise<void> | undefined;
   #isStale = false;
@@ -75,15 +75,18 @@ export class Session {
     private readonly source: Source,
     private readonly decoder: ModelDecoder,
     private readonly sink: Sink,
-    /** Aborted by close(). The caller of open() may have started a request with its signal. */
+    /**
+     * Aborted by close(). The caller of open() may already have started a request with the signal
+     * of this controller.
+     */
     private readonly life = new AbortController(),
     private readonly wait: RetryDelay = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
   ) {}
 
   /**
    * Fetches the head. Resolves when the base mesh is displayed, with the pictures of the head.
-   * Requests no enhancement layer. With `isRestart`, a finer surface is already displayed, and stays until a
-   * detail request is reached.
+   * Requests no enhancement layers. If `isRestart`, a finer surface is already displayed; it stays visible
+   * until a detail request is reached.
    */
   async open(isRestart = false, asked = this.source.head(this.life.signal)): Promise<void> {
     const { signal } = this.life;
@@ -132,8 +135,9 @@ export class Session {
   }
 
   /**
-   * Fetches a picture and offers it for display in a size of `side` by `side` pixels, which is that of the file by default.
-   * Resolves when it is decoded. Fetched files are kept, because another size may be needed later.
+   * Fetches a picture and displays it in a size of `side` by `side` pixels. The default of `side`
+   * is that of the file. Resolves when the picture is decoded. Fetched files are kept, because
+   * another size may be needed later.
    */
   async showPicture(index: number, side?: number): Promise<void> {
     const picture = this.#info?.texture?.pictures[index];

@@ -86,7 +86,7 @@ export class StreamSource implements Source {
         if (typeof data === "string") this.#receiveText(data);
         else this.#receive(data as ArrayBuffer);
       } catch {
-        socket.close(1000); // not a pmesh.v1 message, so the rest is fetched over HTTP
+        socket.close(1000); // the message is not part of pmesh.v1, so the rest is fetched over HTTP
       }
     };
     socket.onclose = () => socket === this.#socket && this.#miss();
@@ -100,8 +100,8 @@ export class StreamSource implements Source {
   #receiveText(text: string): void {
     const message = JSON.parse(text) as { type?: unknown; turn?: unknown; sha256?: unknown };
     if (message.type === "model") {
-      // If the hash changes, the file was replaced, and chunks of the old file do not fit the new
-      // one.
+      // If the hash differs, the file was replaced, and the old file's chunks do not fit the new
+      // file.
       if (this.#sha256 && message.sha256 !== this.#sha256) return this.#socket?.close(1000);
       this.#sha256 = String(message.sha256);
     }

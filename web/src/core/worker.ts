@@ -146,7 +146,7 @@ async function compile(url: string): Promise<WebAssembly.Module> {
   const response = await fetch(url);
   if (!response.ok) throw new ModelError(`the decoder is not there (${response.status}): ${url}`);
   const bytes = await response.arrayBuffer();
-  // Some servers send a page of theirs for a file that they do not have.
+  // Some servers send an HTML page if they do not have the requested file.
   if (!isWasm(bytes)) throw new ModelError(`the decoder is not there (no WebAssembly): ${url}`);
   return WebAssembly.compile(bytes);
 }

@@ -13,5 +13,5 @@ declare global {
   }
 }
 
-// A server that renders the page has no registry of elements.
+// On a server that renders the page, there is no registry of elements.
 if (globalThis.customElements && !customElements.get("progressive-mesh")) customElements.define("progressive-mesh", ProgressiveMeshElement);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a scene. A lamp that follows the camera and a sky show the relief of a surface. A textured model is lit by a
-// room instead, as in model-viewer, because metal and gloss show only what they reflect. The room comes after the first
-// picture. The light then changes gradually.
+// The lights of a scene. A lamp that follows the camera and a sky show the relief of a surface. A
+// textured model is lit by a room instead, as in model-viewer, because metal and gloss show only
+// what they reflect. The room is added after the first picture, and the light then changes
+// gradually.
 import { Color, DirectionalLight, HemisphereLight, type Camera, type Scene, type Texture } from "three";
 
-/** Intensities of the lights. That of the room is a factor. */
+/** Intensities of the lights. `room` is a factor of the room's own light. */
 export interface Intensities {
   lamp: number;
   sky: number;
@@ -14,9 +15,9 @@ export interface Intensities {
 export interface Lighting {
   /** Direction from the object to the lamp, as components to the right, upwards and towards the visitor. */
   from: [number, number, number];
-  /** Without the room. */
+  /** Intensities if there is no room. */
   relief: Omit<Intensities, "room">;
-  /** With the room. */
+  /** Intensities if the room lights the scene. */
   inRoom: Intensities;
 }
 

@@ -92,8 +92,9 @@ export class ProgressiveMeshElement extends Base {
   }
 
   /**
-   * Sets the URLs of the viewer's files that are neither in its module's folder nor where a bundler has put them, and loads the
-   * model again. All models of a page share one worker and its decoders, so the URLs of the first model count.
+   * Sets the URLs of those of the viewer's files that are neither in its module's folder nor where a bundler
+   * has put them, and loads the model again. All models of a page share one worker and its decoders, so the
+   * URLs set for the first model apply to all.
    */
   setAssets(assets: Partial<Assets>): void {
     this.#assets = assets;
@@ -169,7 +170,7 @@ export class ProgressiveMeshElement extends Base {
   }
 
   /**
-   * Applies properties that the page set before the element was defined. Otherwise these properties
+   * Applies properties that the page set before the element was defined. Without this, these own properties
    * would hide the accessors of the class.
    */
   #adopt(): void {
@@ -186,7 +187,8 @@ export class ProgressiveMeshElement extends Base {
     const src = this.getAttribute("src");
     if (!src) return;
     const load = this.#loads;
-    // Lets the script that has imported this module call setAssets before anything is loaded.
+    // Gives the script that has imported this module the chance to call setAssets before anything
+    // is loaded.
     await Promise.resolve();
     if (load !== this.#loads) return;
     try {
@@ -205,7 +207,7 @@ export class ProgressiveMeshElement extends Base {
       this.#emit("first-paint");
       // Ignores an error, because the browser reports it. The model is then shown without tools.
       this.#equip(stage).catch(() => undefined);
-      // Ignores an error, too. Lamp and sky then light the model.
+      // Ignores an error. In that case, lamp and sky light the model.
       if (stage.mesh.info.texture) stage.enterRoom().catch(() => undefined);
       await this.#sharpen();
     } catch (error) {
@@ -213,7 +215,9 @@ export class ProgressiveMeshElement extends Base {
     }
   }
 
-  /** Applies the attribute that bounds the pictures. A picture that is shown already stays. */
+  /**
+   * Applies the attribute that limits the size of pictures. A picture that is already shown stays.
+   */
   #limit(stage: Stage): void {
     const side = this.#number("max-texture");
     stage.mesh.maxTexture = side >= 0 ? side : Infinity;

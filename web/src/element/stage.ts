@@ -211,7 +211,10 @@ export class Stage {
     this.#renderer.forceContextLoss(); // browsers allow only a few contexts per page
   }
 
-  /** Maps tones as the attributes say. The form alone looks like an untextured model. */
+  /**
+   * Sets the tone mapping that the attributes define. If only the form is shown, uses the tone mapping of untextured
+   * models.
+   */
   set tones(words: ToneWords) {
     this.#toneWords = words;
     this.#mapTones();

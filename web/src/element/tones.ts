@@ -22,8 +22,8 @@ const kMappings: Record<string, ToneMapping> = {
 };
 
 /**
- * Returns how light becomes colour. Without attributes, textured models look as in model-viewer, and the bare form is not mapped.
- * Missing and malformed values count as not given. `none` ignores the exposure.
+ * Returns the tone mapping and the exposure. Without attributes, a textured model looks as in model-viewer, and an
+ * untextured one gets no tone mapping. A malformed value counts as missing. The mapping `none` ignores the exposure.
  */
 export function tonesOf({ mapping, exposure }: ToneWords, isTextured: boolean): Tones {
   const factor = Number(exposure || NaN), hasFactor = Number.isFinite(factor) && factor >= 0;

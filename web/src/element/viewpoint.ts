@@ -6,7 +6,7 @@ export const kFieldOfView = 35;
 /** Direction from the object's centre to the camera. */
 export const kViewpoint = new Vector3(0.35, 0.15, 1).normalize();
 
-/** Part of the view's width or height, whichever is scarcer, that a model fills at first. */
+/** Part of the view's width or height, whichever is smaller, that a model fills at first. */
 const kFill = 0.83;
 
 /**

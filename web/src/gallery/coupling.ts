@@ -22,7 +22,7 @@ export class Coupling {
   readonly #homes = new Map<Viewer, Home>();
   readonly #resized = new ResizeObserver(() => this.#goHome());
 
-  /** Adds a viewer, or says that it will show another model. `unit` is that of its model. */
+  /** Adds a viewer, or announces that a viewer will show another model. `unit` is the unit of the viewer's model. */
   set(viewer: Viewer, unit: Unit | ""): void {
     if (!this.#units.has(viewer)) this.#observe(viewer);
     this.#units.set(viewer, unit);
@@ -41,7 +41,8 @@ export class Coupling {
   #goHome(): void {
     for (const viewer of this.#units.keys()) {
       if (!viewer.getCameraOrbit()) continue;
-      // The second text differs from the first one, so that the viewer obeys it if it has the first one already.
+      // The viewer ignores an attribute that is set to its present value. Setting another value
+      // first makes the viewer apply the second one.
       for (const orbit of ["auto auto 100%", "auto auto auto"]) viewer.setAttribute("camera-orbit", orbit);
       viewer.setAttribute("camera-target", "auto auto auto");
       const orbit = viewer.getCameraOrbit(), target = viewer.getCameraTarget();

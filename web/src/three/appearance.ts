@@ -46,7 +46,7 @@ export class Appearance {
 
   /**
    * Sets the intensity of the scene's environment. Metal shows only what it reflects, and would be black without an
-   * environment. So the less there is to reflect, the more metal is drawn like other surfaces.
+   * environment. Therefore, the weaker the environment is, the more metal is drawn like other surfaces.
    */
   light(reflection: number): void {
     this.#reflection = reflection;

@@ -6,7 +6,7 @@ import type { Material } from "three";
 import { evenOutline } from "./outline.ts";
 import { unlit } from "./unlit.ts";
 
-const kDuration = 250; // milliseconds
+const kDuration = 250; // duration of a morph, in milliseconds
 /** Maximum number of changes that morph at the same time. If there are more, the oldest morph ends early. */
 const kChanges = 16;
 

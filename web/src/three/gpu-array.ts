@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A double-buffered array in GPU memory. The GPU copies the current state to the next one. New data
-// are uploaded in slices over several frames. Then the next state replaces the current one. So a
-// large change needs no long task, and a partial change is never drawn.
+// are uploaded in slices over several frames. Then the next state replaces the current one.
+// Therefore, a large change needs no long task, and a partial change is never drawn.
 
 /**
  * Work in steps. Each yielded value says when the next step may run: immediately, in the next

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses which picture of a texture to show next: of each role, the smallest whose texels are at
-// most about a screen pixel in size. A picture that is finer than that is held in a smaller size.
+// Chooses which picture of a texture to show next. For each role, this is the smallest whose texels
+// are at most about a screen pixel in size. A picture that is finer than that is held in a smaller
+// size.
 import type { PictureRole, TextureInfo } from "../core/types.ts";
 
 /** Desired side of a picture in pixels, per pixel of the model's size on the screen. */

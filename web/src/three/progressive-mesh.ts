@@ -151,8 +151,8 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   /**
-   * Sets the renderer that draws the mesh. There can be only one. If this was not called before the
-   * first frame, that frame shows nothing and calls it.
+   * Sets the renderer that draws the mesh. Later calls have no effect. If this function was not
+   * called before the first frame, the first frame calls it and shows nothing.
    */
   drawBy(renderer: WebGLRenderer): void {
     if (this.#renderer) return;

@@ -61,11 +61,11 @@ TEST_F(FuseAtRig, TheHeadStandingAndUpsideDownBecomesOneSurface) {
   };
   const json one = off("standing.ply"), both = off("out.ply");
   EXPECT_LT(both["a_to_b"]["rms"].get<double>(), .2);
-  // The second scan shows what the first did not.
+  // The second scan shows parts of the surface that the first scan does not show.
   EXPECT_LT(both["b_to_a"]["rms"].get<double>(), one["b_to_a"]["rms"].get<double>());
 }
 
-// Nothing tells how a body of revolution was turned about its axis.
+// From a body of revolution, the turn about its axis between two scans cannot be determined.
 TEST_F(FuseAtRig, ASymmetricObjectIsRefusedAndNothingIsWritten) {
   std::string ply;
   constexpr int kAround = 60, kRows = 40;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A page whose bundler leaves the viewer's files where they are; the page says where that is.
+// A page that tells the viewer where its files are, because they are neither beside the bundle nor
+// moved by the bundler.
 import { ProgressiveMeshLoader } from "@vitrine/progressive-mesh";
 import "@vitrine/progressive-mesh/element";
 

@@ -20,7 +20,8 @@ export interface Cut {
 }
 
 /**
- * Returns the profile of `geometry`, which must have a bounding sphere. Empty if the points coincide or are in line with the eye.
+ * Returns the profile of `geometry`, which must have a bounding sphere. Returns an empty list if the points
+ * coincide or are in line with the eye.
  * `unpackDepth` converts four bytes of three.js' RGBADepthPacking to a depth from 0 to 1.
  */
 export function profileOf(renderer: WebGLRenderer, geometry: BufferGeometry, { from, to, eye }: Cut, unpackDepth: (bytes: Iterable<number>) => number): Sample[] {
@@ -29,7 +30,8 @@ export function profileOf(renderer: WebGLRenderer, geometry: BufferGeometry, { f
   const up = eye.clone().sub(from);
   up.addScaledVector(along, -up.dot(along)).normalize();
   if (!(length > 0 && up.length() > 0.5)) return [];
-  // The camera is above the surface, looks against `up`, and has the line at its middle row.
+  // The camera is above the surface and looks in the direction opposite to `up`. The line is at the
+  // middle row of its picture.
   const above = radius + center.distanceTo(from), camera = new PerspectiveCamera();
   camera.position.copy(from).addScaledVector(up, above);
   camera.up.copy(up).cross(along);
@@ -67,7 +69,10 @@ export function csvOf(samples: readonly Sample[], unit: string): string {
 /** Size of the drawing in pixels. */
 const kWidth = 320, kHeight = 140, kEdge = 14;
 
-/** Returns the profile as a drawing, in which heights and distances have the same scale if it fits. `lengthOf` formats a length. */
+/**
+ * Returns the profile as a drawing, in which heights and distances have the same scale if it fits. `lengthOf`
+ * formats a length.
+ */
 export function svgOf(samples: readonly Sample[], lengthOf: (value: number) => string): string {
   const heights = samples.flatMap(({ height }) => height ?? []), low = Math.min(...heights, 0), high = Math.max(...heights, 0);
   const length = samples.at(-1)?.distance ?? 1, across = (kWidth - 2 * kEdge) / length;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes a prefiltered environment map: the light from all directions, at levels with more and
-// more blur. With one access to the map, a shader finds the light that a surface of a given
+// Computes a prefiltered environment map: the light from all directions, at levels of increasing
+// blur. A shader needs only one access to the map to find the light that a surface of a given
 // roughness reflects. The layout and the blurs are those of three.js (PMREMGenerator.js and
 // cube_uv_reflection_fragment.glsl.js, revision 170), which calls the layout
-// CubeUVReflectionMapping. Needs no GPU, so that a worker can compute the map.
+// CubeUVReflectionMapping. Needs no GPU, so a worker can compute the map.
 
 type Triple = [number, number, number];
 
@@ -13,7 +13,7 @@ type Triple = [number, number, number];
  */
 const kSides = [32, 16];
 const kLargest = 32, kSmallest = 16;
-/** The blur of each further level: standard deviation of the Gaussian, in radians. */
+/** The blur of each blurred level: standard deviation of the Gaussian, in radians. */
 const kBlurs = [0.125, 0.215, 0.35, 0.446, 0.526, 0.582];
 /**
  * Each texel of a level without blur, and each sample, is the mean of kRays x kRays rays. The rays
@@ -27,7 +27,10 @@ const kSmallestHalf = 2 ** -14;
 
 export const kMapWidth = 3 * kSmallest * (1 + kBlurs.length), kMapHeight = 4 * kLargest;
 
-/** Returns the map's RGBA texels as half floats. `radiance` is the light, without colour, from the direction of a unit vector. */
+/**
+ * Returns the map's RGBA texels as half floats. `radiance` is the light, without colour, from the direction
+ * of a unit vector.
+ */
 export function environmentMap(radiance: (direction: Triple) => number): Uint16Array<ArrayBuffer> {
   const map = new Uint16Array(4 * kMapWidth * kMapHeight);
   for (const side of kSides) {
@@ -100,7 +103,10 @@ function blurred(source: Float64Array, [x, y, z]: Triple, blur: number): number 
 
 const float = new Float32Array(1), bits = new Uint32Array(float.buffer);
 
-/** Returns the half float nearest to a number from 0 to 65504. Numbers too small for full precision become `kSmallestHalf`. */
+/**
+ * Returns the half float nearest to a number from 0 to 65504. Numbers too small for full precision become
+ * `kSmallestHalf`.
+ */
 function toHalf(value: number): number {
   float[0] = Math.max(value, kSmallestHalf);
   return ((bits[0] as number) - (112 << 23) + (1 << 12)) >> 13;

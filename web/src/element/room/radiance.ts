@@ -64,7 +64,10 @@ export function radiance(direction: Triple): number {
   return nearest.shine ?? reflected(nearest, direction, distance);
 }
 
-/** Returns the distance at which a ray from the eye enters `box`, or leaves it if `isInside`. Infinity if it misses the box. */
+/**
+ * Returns the distance at which a ray from the eye enters `box`, or at which it leaves `box` if
+ * `isInside`. Returns infinity if the ray misses the box.
+ */
 function crossing({ size, eye, cosine, sine }: Placed, [x, y, z]: Triple, isInside: boolean): number {
   let enter = 0, leave = Infinity;
   for (let axis = 0; axis < 3; ++axis) {
@@ -79,16 +82,17 @@ function crossing({ size, eye, cosine, sine }: Placed, [x, y, z]: Triple, isInsi
 }
 
 /**
- * Returns the radiance of a white, matt surface that the lamp lights, without shadows. `distance` is that from the eye. Light
- * falls off as in three.js.
+ * Returns the radiance of a white, matt surface that the lamp lights, without shadows. `distance`
+ * is the distance of the surface from the eye. Light decreases with distance as in three.js.
  */
 function reflected(box: Placed, direction: Triple, distance: number): number {
   const along = inBox(box, direction);
   const share = ([0, 1, 2] as const).map((i) => Math.abs(box.eye[i] + distance * along[i]) / box.size[i]);
-  const axis = share.indexOf(Math.max(...share)) as 0 | 1 | 2; // of the normal: the point is on that side of the box
+  // axis of the surface's normal: the axis whose side of the box the point is on
+  const axis = share.indexOf(Math.max(...share)) as 0 | 1 | 2;
   const toLamp: Triple = [kLamp.at[0] - kEye[0] - distance * direction[0], kLamp.at[1] - kEye[1] - distance * direction[1], kLamp.at[2] - kEye[2] - distance * direction[2]];
   const far = Math.hypot(...toLamp);
-  // The side that the eye sees is lit if the lamp is on that side, too.
+  // The side of the box that the eye sees is lit only if the lamp is on the same side.
   const cosine = (-Math.sign(along[axis]) * inBox(box, toLamp)[axis]) / far;
   const falloff = Math.max(0, 1 - (far / kLamp.reach) ** 4) ** 2 / far ** 2;
   return (Math.max(0, cosine) * kLamp.intensity * falloff) / Math.PI;

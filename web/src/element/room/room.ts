@@ -10,7 +10,7 @@ let texels: Promise<Uint16Array<ArrayBuffer>> | undefined;
 /** Returns a new environment for a scene of three.js. The caller disposes of it. Rejects if the page may not start workers. */
 export async function roomEnvironment(): Promise<DataTexture> {
   const room = new DataTexture(await (texels ??= compute()), kMapWidth, kMapHeight, RGBAFormat, HalfFloatType);
-  room.mapping = CubeUVReflectionMapping as unknown as Mapping; // which the types of three.js do not list
+  room.mapping = CubeUVReflectionMapping as unknown as Mapping; // a value that the types of three.js do not list
   room.minFilter = room.magFilter = LinearFilter;
   room.needsUpdate = true;
   return room;

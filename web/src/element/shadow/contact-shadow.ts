@@ -43,7 +43,7 @@ const kBlur = `varying vec2 at; uniform sampler2D source; uniform vec2 step;
   }`;
 
 export class ContactShadow {
-  /** From 0 to 1. */
+  /** Intensity of the shadow, from 0 to 1. */
   intensity = 1;
   readonly #targets = [new WebGLRenderTarget(kSide, kSide, { depthBuffer: true }), new WebGLRenderTarget(kSide, kSide, { depthBuffer: false })] as const;
   readonly #square = square();
@@ -66,7 +66,7 @@ export class ContactShadow {
   #isStale = true;
   #section: unknown; // the clipping planes with which the shadow was computed
 
-  /** `geometry` must have a bounding box. It stays with its owner. */
+  /** `geometry` must have a bounding box. The caller keeps its ownership. */
   constructor(private readonly renderer: WebGLRenderer, geometry: BufferGeometry) {
     this.#model = new Scene().add(unculled(new Mesh(geometry, this.#body)));
     const { min, max } = geometry.boundingBox ?? { min: new Vector3(), max: new Vector3() };

@@ -2,7 +2,7 @@
 // Camera control by keyboard.
 import type { Bench, Tool } from "./bench.ts";
 
-const kTurn = 10; // degrees per key press
+const kTurn = 10; // angle of a turn per key press, in degrees
 const kZoom = 1.15;
 
 /** The effect of each key: degrees to the right, degrees up, and the factor for the distance. */

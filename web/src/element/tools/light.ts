@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lighting presets. The museum's light is the default: a room for textured models, lamp and sky for others. Raking light comes from the side, nearly parallel to the surface, so that
-// shading reveals every tool mark. The visitor can turn the direction of raking light.
+// Lighting presets. The museum's light is the default: a room for textured models, a lamp and a sky for
+// untextured ones. Raking light comes from the side, nearly parallel to the surface, so that shading reveals
+// every tool mark. The visitor can turn the direction of raking light.
 import type { Lighting } from "../lights.ts";
 import type { Bench, Tool } from "./bench.ts";
 import { choices, make } from "./dom.ts";

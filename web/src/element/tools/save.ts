@@ -40,7 +40,7 @@ export class Save implements Tool {
     this.#restore();
   }
 
-  /** Shows what the link of the page says. */
+  /** Restores the settings in the page's link. */
   #restore(): void {
     const { bench } = this, setting = (name: string) => settingIn(location.hash, bench.host.id, name);
     const view = parseView(setting("view")), triangles = Number(setting("detail"));

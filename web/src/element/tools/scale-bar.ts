@@ -4,7 +4,7 @@ import type { PerspectiveCamera, Vector3 } from "three";
 import type { Bench } from "./bench.ts";
 import { make } from "./dom.ts";
 
-const kLongest = 160; // pixels
+const kLongest = 160; // greatest length of the bar, in CSS pixels
 
 /** Returns the longest of 1, 2 and 5 times a power of ten that is at most `most`, which is positive. */
 export function roundLength(most: number): number {

@@ -65,7 +65,7 @@ export class Section implements Tool {
   #set(isOn: boolean, axis: Axis, step: number, isFlipped: boolean): void {
     (this.content.querySelector(`[value=${axis}]`) as HTMLInputElement).checked = true;
     this.#axis = axis;
-    this.#slider.value = String(step); // the slider bounds it
+    this.#slider.value = String(step); // the slider clamps the value to its range
     box(this.#switch).checked = isOn;
     box(this.#flip).checked = isFlipped;
     this.#cut();
