@@ -12,7 +12,7 @@
 
 namespace vitrine::inline codec {
 
-// Whether files have a normal per vertex; STL and DRC files never do. Without normals, most
+// Whether files have a normal per vertex; STL, DRC and 3MF files never do. Without normals, most
 // programs show facets.
 enum class Normals { kSmooth, kNone };
 
@@ -40,8 +40,9 @@ struct ExportOptions {
   // The unit in the file: one of kLengthUnits. Empty: `unit`, or the metre if the format requires
   // it. Has no effect if `unit` is not one of kLengthUnits.
   std::string_view unit_in_file = {};
-  // The axis that points up in the file. The mesh has y up. nullopt: the mesh is written as it is,
-  // and the file does not state an axis.
+  // The axis that points up in the file. The mesh has y up. nullopt: the mesh has the axis that the
+  // format requires. If it requires none, the mesh is written as it is, and comments do not state
+  // an axis.
   std::optional<UpAxis> up = {};
   Normals normals = Normals::kSmooth;
   FileDescription about = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The statements about its content that a file makes in comments.
+// The statements about its content that a file makes in comments or metadata.
 #pragma once
 
 #include <span>
@@ -23,8 +23,8 @@ struct Statement {
 std::vector<Statement> statements_of(const ExportOptions& options);
 
 // Returns the text as one line of at most 400 bytes of UTF-8, cut between characters. Control
-// characters and separators of lines become blanks. The line has no blanks at its ends, and no
-// backslash at its end, which would continue the line in an OBJ file.
+// characters, separators of lines, U+FFFE and U+FFFF become blanks. The line has no blanks at its
+// ends, and no backslash at its end, which would continue the line in an OBJ file.
 std::string one_line(std::string_view text);
 
 // Writes a line for each statement: the prefix, the name, a blank and the text.

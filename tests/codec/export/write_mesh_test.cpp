@@ -323,9 +323,9 @@ TEST(WriteTexturedMesh, VerticesAtASeamShareTheirNormal) {
   expect_near(floats_at(glb, at, 12, split.original.size()), per_vertex);
 }
 
-TEST(WriteMesh, PlyAndGlbReadBackExactly) {
+TEST(WriteMesh, PlyGlbAnd3mfReadBackExactly) {
   for (const bool coloured : {false, true}) {
-    for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kGlb}) {
+    for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kGlb, MeshFormat::k3mf}) {
       const TriangleMesh mesh = sample(coloured);
       const TriangleMesh back = read_back(mesh, format);
       EXPECT_EQ(back.positions, mesh.positions);
@@ -363,7 +363,8 @@ TEST(WriteMesh, FarFromTheOriginDetailIsKept) {
   TriangleMesh mesh = grid(16);
   for (Vec3& p : mesh.positions)
     p = p * (1.0 / 1024) + Vec3{500'000, 5'300'000, 250};
-  for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kGlb}) {
+  for (const MeshFormat format :
+       {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kGlb, MeshFormat::k3mf}) {
     const TriangleMesh back = read_back(mesh, format);
     EXPECT_EQ(back.positions, mesh.positions);
     EXPECT_EQ(back.faces, mesh.faces);
@@ -450,6 +451,7 @@ TEST(WriteMesh, KnowsExtensionsInEitherCaseWithOrWithoutDot) {
   EXPECT_EQ(format_of_extension(".PLY"), MeshFormat::kPly);
   EXPECT_EQ(format_of_extension("wrl"), MeshFormat::kVrml);
   EXPECT_EQ(format_of_extension(".drc"), MeshFormat::kDrc);
+  EXPECT_EQ(format_of_extension(".3MF"), MeshFormat::k3mf);
   EXPECT_EQ(format_of_extension("txt"), std::nullopt);
   EXPECT_EQ(format_of_extension(""), std::nullopt);
 }

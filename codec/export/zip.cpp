@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/export/zip.h"
+#include "codec/export/zip.h"
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fmt/format.h>
 
 #include <memory>
+#include <string>
 
-namespace vitrine::server {
+namespace vitrine::inline codec {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -16,8 +16,8 @@ using Entry = std::unique_ptr<archive_entry, decltype(&archive_entry_free)>;
 
 Unexpected zip_fault(archive* handle) {
   const char* why = archive_error_string(handle);
-  return fail(ErrorCode::kIo, fmt::format("cannot write the zip: {}; try again",
-                                          why != nullptr ? why : "memory ran out"));
+  return fail(ErrorCode::kIo, std::string("cannot write the zip: ") +
+                                  (why != nullptr ? why : "memory ran out") + "; try again");
 }
 
 la_ssize_t append(archive*, void* out, const void* bytes, std::size_t size) {
@@ -57,4 +57,4 @@ Expected<Bytes> zip(std::span<const MeshFile> files) {
   return out;
 }
 
-}  // namespace vitrine::server
+}  // namespace vitrine::inline codec
