@@ -134,7 +134,7 @@ constexpr bool has_companions(MeshFormat format) {
 //
 // Fails (kBadInput) if the mesh has no faces, a position does not fit a float, or the options
 // contradict the fixed unit and axis of a format. Fails (kLimit) if the file would exceed the
-// 32-bit sizes of a format, and (kIo) if the zip of a 3MF cannot be written.
+// 32-bit sizes of a format.
 Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
                                                const ExportOptions& options = {});
 

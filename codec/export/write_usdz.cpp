@@ -9,9 +9,9 @@
 #include "codec/export/file_writer.h"
 #include "codec/export/seam_vertices.h"
 #include "codec/export/statements.h"
-#include "codec/export/stored_zip.h"
 #include "codec/export/usd_material.h"
 #include "codec/export/writers.h"
+#include "codec/export/zip.h"
 #include "codec/mesh/unit.h"
 
 namespace vitrine::inline codec {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "codec/core/byte_cursor.h"
-#include "codec/export/stored_zip.h"
 #include "support/packages/read_zip.h"
 
 namespace vitrine {
@@ -12,6 +11,11 @@ namespace {
 
 std::string text_of(const std::vector<std::uint8_t>& bytes) {
   return {bytes.begin(), bytes.end()};
+}
+
+template <class T>
+T number_at(const std::vector<std::uint8_t>& bytes, std::size_t at) {
+  return load<T>(&bytes.at(at));
 }
 
 std::vector<MeshFile> three_files() {
@@ -47,9 +51,19 @@ TEST(StoredZip, HoldsTheFilesAndEqualFilesGiveEqualBytes) {
   EXPECT_EQ(stored_zip(files).value(), *packed);
 }
 
-template <class T>
-T number_at(const std::vector<std::uint8_t>& bytes, std::size_t at) {
-  return load<T>(&bytes.at(at));
+// Strict readers compare the local header of each file with its entry in the directory.
+TEST(Zip, LocalHeadersAgreeWithTheDirectory) {
+  const std::vector<std::uint8_t> packed = zip(three_files()).value();
+  const std::string text = text_of(packed);
+  std::size_t entries = 0;
+  for (std::size_t at = 0; (at = text.find("PK\1\2", at)) != text.npos; ++at, ++entries) {
+    const std::size_t local = number_at<std::uint32_t>(packed, at + 42);
+    const std::size_t shared = 24;  // from the version to the size of the name
+    ASSERT_EQ(text.substr(local, 4), "PK\3\4");
+    EXPECT_EQ(text.substr(local + 4, shared), text.substr(at + 6, shared));
+    EXPECT_EQ(number_at<std::uint16_t>(packed, local + 6), 0) << "no descriptor after the bytes";
+  }
+  EXPECT_EQ(entries, 3u);
 }
 
 // Finds the files as readers of USDZ do: by the local headers, one after the other.
