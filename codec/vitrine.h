@@ -7,8 +7,10 @@
 //   open_model   takes bytes of a `.pmesh`, or a prefix of them; returns a Refiner at the base mesh
 //   refine       refines a Refiner to a given Want: triangles, bytes, error, level, view
 //   Planner      chooses the next chunk to fetch, if chunks arrive one by one (Refiner::apply)
-//   write_mesh   takes a TriangleMesh; returns bytes of a PLY, GLB, OBJ, STL, DRC or VRML file
-//                (write_textured_mesh: also takes a Texturing; returns the file and its pictures)
+//   write_mesh   takes a TriangleMesh; returns bytes of a PLY, GLB, OBJ, STL, DRC, VRML, 3MF or
+//   USDZ
+//                file (write_textured_mesh: also takes a Texturing; returns the file and its
+//                pictures)
 //
 // verify_model proves that a `.pmesh` is intact and, if the original is given, that it is lossless.
 // compare_appearance measures how alike two meshes look: PSNR and SSIM of pictures from twelve

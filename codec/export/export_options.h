@@ -12,8 +12,8 @@
 
 namespace vitrine::inline codec {
 
-// Whether files have a normal per vertex. STL and DRC files never do. Most programs show a mesh
-// without normals as flat facets.
+// Whether files have a normal per vertex. STL, DRC and 3MF files never do. Most programs show a
+// mesh without normals as flat facets.
 enum class Normals { kSmooth, kNone };
 
 // The statements of a file about its content. Texts may have any bytes: writers replace control
@@ -40,8 +40,9 @@ struct ExportOptions {
   // The unit of the positions in the file: one of kLengthUnits. If empty, this is `unit`, or the
   // metre if the format requires metres. Has no effect unless `unit` is one of kLengthUnits.
   std::string_view unit_in_file = {};
-  // The axis that points up in the file. The mesh itself has y up. nullopt: writes the mesh as it
-  // is and states no axis.
+  // The axis that points up in the file. The mesh itself has y up. nullopt: the file has the axis
+  // that the format requires. If the format requires none, the mesh is written as it is, and the
+  // file's comments state no axis.
   std::optional<UpAxis> up = {};
   Normals normals = Normals::kSmooth;
   FileDescription about = {};

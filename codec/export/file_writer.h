@@ -48,12 +48,12 @@ class FileWriter {
   }
 
   // Writes a unit vector with four decimals, so that its direction is off by at most 0.01 degrees.
-  void unit_vector(const Vec3& v) {
+  void unit_vector(const Vec3& v, std::string_view separator = " ") {
     const auto rounded = [](double part) { return std::round(part * 1e4) / 1e4 + 0.0; };
-    numbers<double>({rounded(v.x), rounded(v.y), rounded(v.z)});
+    numbers<double>({rounded(v.x), rounded(v.y), rounded(v.z)}, separator);
   }
 
-  // Writes a JSON string. `value` must be UTF-8. Control characters are left out.
+  // Writes a string of JSON, VRML or USD. `value` must be UTF-8. Control characters are left out.
   void quoted(std::string_view value) {
     text("\"");
     for (const char c : value) {

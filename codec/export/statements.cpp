@@ -17,12 +17,13 @@ std::size_t character_bytes(std::string_view text) {
   return bytes;
 }
 
-// Whether a UTF-8 character is a control character (C0, DEL, C1) or a line or paragraph separator.
-bool breaks_line(std::string_view character) {
+// Whether a UTF-8 character is a control character (C0, DEL, C1), a line or paragraph separator, or
+// one of the two other characters that XML forbids.
+bool is_forbidden(std::string_view character) {
   if (character.size() == 1)
     return static_cast<unsigned char>(character[0]) < 0x20 || character[0] == 0x7F;
   return (character[0] == '\xC2' && character[1] < '\xA0') || character == "\u2028" ||
-         character == "\u2029";
+         character == "\u2029" || character == "\xEF\xBF\xBE" || character == "\xEF\xBF\xBF";
 }
 
 std::string trimmed(const std::string& text) {
@@ -39,7 +40,7 @@ std::string one_line(std::string_view text) {
   for (std::string_view left = valid; !left.empty();) {
     const std::string_view character = left.substr(0, character_bytes(left));
     if (line.size() + character.size() > kMostBytes) break;
-    line += breaks_line(character) ? " " : character;
+    line += is_forbidden(character) ? " " : character;
     left.remove_prefix(character.size());
   }
   return trimmed(line);

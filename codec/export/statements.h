@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The comments in which a mesh file describes its content, such as unit, title and licence.
+// The comments or metadata in which a mesh file describes its content, such as unit, title and
+// licence.
 #pragma once
 
 #include <span>
@@ -23,8 +24,9 @@ struct Statement {
 std::vector<Statement> statements_of(const ExportOptions& options);
 
 // Returns the text as one line of at most 400 bytes of UTF-8. Does not cut within a character.
-// Control characters and line separators become spaces. The line neither starts nor ends with a
-// space. It does not end with a backslash, which would continue the line in an OBJ file.
+// Control characters, line separators, U+FFFE and U+FFFF become spaces. The line neither starts nor
+// ends with a space. It does not end with a backslash, which would continue the line in an OBJ
+// file.
 std::string one_line(std::string_view text);
 
 // Writes one line for each statement: `prefix`, the statement's name, a space and its text.

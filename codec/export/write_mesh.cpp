@@ -95,25 +95,29 @@ Expected<void> check(MeshFormat format, const ExportOptions& options) {
   const ExportFormat& row = row_of(format);
   if (options.compression != Compression::kNone && format != MeshFormat::kGlb)
     return fail(ErrorCode::kBadInput, "only GLB files can be compressed; choose GLB");
-  if (!row.has_fixed_frame) return {};
   const bool is_other_unit = !options.unit_in_file.empty() && options.unit_in_file != row.unit;
-  if (!is_other_unit && options.up.value_or(row.up) == row.up) return {};
-  return fail(ErrorCode::kBadInput, std::string(row.name) +
-                                        " files are in metres with y up; choose these, or "
-                                        "another format");
+  const auto demand = [&](std::string_view frame) {
+    return fail(ErrorCode::kBadInput, std::string(row.name) + " files have " + std::string(frame) +
+                                          "; choose this, or another format");
+  };
+  if (row.has_fixed_unit && is_other_unit) return demand("the unit " + std::string(row.unit));
+  if (row.has_fixed_up && options.up.value_or(row.up) != row.up)
+    return demand(std::string(name_of(row.up)) + " up");
+  return {};
 }
 
-// Returns the options that describe the file: its positions' unit, and the error in that unit. Sets
-// `factor`, by which the positions of the mesh must be multiplied.
+// Returns the options that describe the file: its positions' unit, the error in that unit, and the
+// axis that points up. Sets `factor`, by which the positions of the mesh must be multiplied.
 ExportOptions options_of_file(MeshFormat format, const ExportOptions& options, double& factor) {
   ExportOptions file = options;
   const auto metres = metres_per(options.unit);
   const ExportFormat& row = row_of(format);
-  const std::string_view wanted = row.has_fixed_frame ? row.unit : options.unit_in_file;
+  const std::string_view wanted = row.has_fixed_unit ? row.unit : options.unit_in_file;
   const auto metres_in_file = metres_per(wanted);
   factor = metres && metres_in_file ? *metres / *metres_in_file : 1;
   if (metres && metres_in_file) file.unit = wanted;
-  if (!metres && row.has_fixed_frame) file.unit = {};
+  if (!metres && row.has_fixed_unit) file.unit = {};
+  if (row.has_fixed_up) file.up = row.up;
   if (file.about.error) *file.about.error *= factor;
   if (file.grid) file.grid = ExportGrid{file.grid->origin * factor, file.grid->step * factor};
   return file;
@@ -147,20 +151,28 @@ Expected<FileBytes> placed_file(const TriangleMesh& mesh, const Texturing& textu
       return write_drc(mesh);
     case MeshFormat::kVrml:
       return write_vrml(mesh, texturing, normals, statements);
+    case MeshFormat::k3mf:
+      return write_3mf(mesh, options);
+    case MeshFormat::kUsdz:
+      return write_usdz(mesh, texturing, normals, options);
   }
   return fail(ErrorCode::kUnsupported,
               "unknown mesh format; choose " + std::string(kExportExtensions));
 }
 
+// Whether a format holds the normals of vertices.
+bool has_normals(MeshFormat format) {
+  return format != MeshFormat::kStl && format != MeshFormat::kDrc && format != MeshFormat::k3mf;
+}
+
 Expected<FileBytes> mesh_file(const TriangleMesh& mesh, const Texturing& texturing,
                               MeshFormat format, std::string_view library,
                               const ExportOptions& options) {
-  const bool has_normals = options.normals == Normals::kSmooth && format != MeshFormat::kStl &&
-                           format != MeshFormat::kDrc;
-  std::vector<Vec3> normals = has_normals ? unit_normals(mesh) : std::vector<Vec3>();
+  const bool is_smooth = options.normals == Normals::kSmooth && has_normals(format);
+  std::vector<Vec3> normals = is_smooth ? unit_normals(mesh) : std::vector<Vec3>();
   double factor = 1;
   const ExportOptions file = options_of_file(format, options, factor);
-  const bool has_z_up = options.up == UpAxis::kZ;
+  const bool has_z_up = file.up == UpAxis::kZ;
   if (factor == 1 && !has_z_up) return placed_file(mesh, texturing, normals, format, library, file);
   TriangleMesh placed = mesh;
   place(placed, normals, factor, has_z_up);

@@ -18,8 +18,8 @@
 
 namespace vitrine::inline codec {
 
-// File formats. Positions have single precision, except in OBJ and VRML (nine digits) and in DRC
-// (24 bits per coordinate of the bounding box).
+// File formats. Positions have single precision (as text in OBJ, VRML, 3MF and USDZ), except in
+// DRC, which has 24 bits per coordinate of the bounding box.
 enum class MeshFormat {
   kPly,   // binary little-endian; a texture as MeshLab writes it, or colours as bytes
   kGlb,   // glTF 2.0; a texture, or colours in linear light; compressed if asked for
@@ -27,6 +27,8 @@ enum class MeshFormat {
   kStl,   // binary; no colours; each face has its own vertices
   kDrc,   // Draco edgebreaker; exact colours; vertices and faces are reordered
   kVrml,  // VRML 97 with one IndexedFaceSet; a texture or colours
+  k3mf,   // a zip for printers, with z up; colours as bytes
+  kUsdz,  // a stored zip of a USD layer as text; a texture, or colours in linear light
 };
 
 struct ExportFormat {
@@ -36,7 +38,8 @@ struct ExportFormat {
   // the model.
   std::string_view unit = {};
   UpAxis up = UpAxis::kY;
-  bool has_fixed_frame = false;  // whether the format's standard prescribes unit and up axis
+  // Whether the format's standard prescribes this unit, and this axis.
+  bool has_fixed_unit = false, has_fixed_up = false;
 };
 
 // The table of mesh formats that can be written, in the order of MeshFormat. Lists of the formats
@@ -51,7 +54,8 @@ inline constexpr ExportFormat kExportFormats[] = {
      .extension = "glb",
      .media_type = "model/gltf-binary",
      .unit = "m",
-     .has_fixed_frame = true},
+     .has_fixed_unit = true,
+     .has_fixed_up = true},
     {.format = MeshFormat::kObj, .name = "OBJ", .extension = "obj", .media_type = "model/obj"},
     {.format = MeshFormat::kStl,
      .name = "STL",
@@ -68,15 +72,28 @@ inline constexpr ExportFormat kExportFormats[] = {
      .extension = "wrl",
      .media_type = "model/vrml",
      .unit = "m",
-     .has_fixed_frame = true},
+     .has_fixed_unit = true,
+     .has_fixed_up = true},
+    {.format = MeshFormat::k3mf,
+     .name = "3MF",
+     .extension = "3mf",
+     .media_type = "model/3mf",
+     .unit = "mm",
+     .up = UpAxis::kZ,
+     .has_fixed_up = true},
+    {.format = MeshFormat::kUsdz,
+     .name = "USDZ",
+     .extension = "usdz",
+     .media_type = "model/vnd.usdz+zip",
+     .unit = "m"},
 };
 
 constexpr const ExportFormat& row_of(MeshFormat format) {
   return kExportFormats[static_cast<std::size_t>(format)];
 }
 
-// Each constant below lists all formats: "ply, glb, obj, stl, drc or wrl", ".ply, .glb, …" and
-// "ply,glb,obj,stl,drc,wrl".
+// Each constant below lists all formats: "ply, glb, …, 3mf or usdz", ".ply, .glb, …" and
+// "ply,glb,…,3mf,usdz".
 constexpr std::string_view extension_of(const ExportFormat& format) {
   return format.extension;
 }
@@ -94,6 +111,7 @@ std::optional<MeshFormat> format_of_extension(std::string_view extension);
 constexpr std::bitset<kPictureRoles> roles_in(MeshFormat format) {
   switch (format) {
     case MeshFormat::kGlb:
+    case MeshFormat::kUsdz:
       return 0b1111;
     case MeshFormat::kObj:
       return 0b1011;
@@ -110,11 +128,11 @@ constexpr bool has_companions(MeshFormat format) {
   return format == MeshFormat::kPly || format == MeshFormat::kObj || format == MeshFormat::kVrml;
 }
 
-// Returns the bytes of the file. PLY, OBJ, STL, GLB and VRML files contain the statements of
-// statements.h; STL files have room for 80 bytes of them. If the unit is unknown, the files state
-// this, and positions are not scaled. If the mesh is far from the origin, PLY, OBJ, GLB and VRML
-// files keep double precision; STL and DRC files cannot. Smooth normals are those of unit_normals()
-// (vertex_normals.h). A compressed GLB has at most one material.
+// Returns the bytes of the file. All files but DRC contain the statements of statements.h; STL
+// files have room for 80 bytes of them. If the unit is unknown, the files state this, and positions
+// are not scaled. If the mesh is far from the origin, files keep double precision, except STL and
+// DRC. Smooth normals are those of unit_normals() (vertex_normals.h). A compressed GLB has at most
+// one material.
 //
 // Fails (kBadInput) if the mesh has no faces, a position does not fit a float, or the options
 // contradict the fixed unit and axis of a format. Fails (kLimit) if the file would exceed the

@@ -36,5 +36,9 @@ Expected<FileBytes> write_glb(const TriangleMesh& mesh, const Texturing& texturi
                               std::span<const Vec3> normals, const ExportOptions& options);
 FileBytes write_vrml(const TriangleMesh& mesh, const Texturing& texturing,
                      std::span<const Vec3> normals, std::span<const Statement> statements);
+// As for GLB. 3MF has neither textures nor normals.
+Expected<FileBytes> write_3mf(const TriangleMesh& mesh, const ExportOptions& options);
+Expected<FileBytes> write_usdz(const TriangleMesh& mesh, const Texturing& texturing,
+                               std::span<const Vec3> normals, const ExportOptions& options);
 
 }  // namespace vitrine::inline codec

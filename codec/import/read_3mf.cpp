@@ -221,31 +221,32 @@ class ThreeMfReader {
       }
       if (is_mirrored) std::swap(triangle[1], triangle[2]);
       mesh_.add_triangle(triangle);
-      colours_.add(triangle, colour_of(in, object, node));
+      colours_.add(triangle, colours_of(in, object, node));
     }
     return {};
   }
 
-  // Returns the mean colour of a triangle's corners.
-  StatedColour colour_of(const Part& in, const Node& object, const Node& triangle) {
+  // Returns the colours of a triangle's corners.
+  std::array<StatedColour, 3> colours_of(const Part& in, const Node& object, const Node& triangle) {
+    constexpr std::array<StatedColour, 3> kNone = {kNoColour, kNoColour, kNoColour};
     std::string_view group = value_of(triangle, "pid");
     const bool is_own = !group.empty();
     if (!is_own) group = value_of(object, "pid");
-    if (group.empty()) return kNoColour;
+    if (group.empty()) return kNone;
     const auto found = in.colours.find(group);
-    if (found == in.colours.end()) return ++textured_, kNoColour;
+    if (found == in.colours.end()) return ++textured_, kNone;
     const std::optional<std::size_t> first =
         number_in<std::size_t>(is_own ? triangle : object, is_own ? "p1" : "pindex");
-    StatedColour sum{};
-    for (const char* name : {"p1", "p2", "p3"}) {
-      const auto index = is_own ? number_in<std::size_t>(triangle, name) : first;
+    std::array<StatedColour, 3> colours{};
+    constexpr std::array<const char*, 3> kNames = {"p1", "p2", "p3"};
+    for (std::size_t k = 0; k < kNames.size(); ++k) {
+      const auto index = is_own ? number_in<std::size_t>(triangle, kNames[k]) : first;
       const std::size_t i = index.value_or(first.value_or(0));
-      if (i >= found->second.size()) return kNoColour;
-      for (std::size_t k = 0; k < 3; ++k)
-        sum[k] += found->second[i][k] / 3;
+      if (i >= found->second.size()) return kNone;
+      colours[k] = found->second[i];
     }
     has_colours_ = true;
-    return sum;
+    return colours;
   }
 
   static Unexpected too_many() {

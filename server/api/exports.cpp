@@ -5,6 +5,7 @@
 #include "codec/core/parse_number.h"
 #include "codec/core/sha256.h"
 #include "codec/export/write_mesh.h"
+#include "codec/export/zip.h"
 #include "server/api/decoded_model.h"
 #include "server/api/detail_request.h"
 #include "server/api/handlers.h"
@@ -13,7 +14,6 @@
 #include "server/api/published.h"
 #include "server/export/export_choices.h"
 #include "server/export/export_kind.h"
-#include "server/export/zip.h"
 #include "server/messages/content_coding.h"
 #include "server/messages/download_name.h"
 
@@ -130,7 +130,7 @@ constexpr FixedText kMediaTypes = concatenate(kMeshMediaTypes, " application/zip
 constexpr FixedText kSummary =
     concatenate("Exports a level of detail as ", kExportExtensions, ", or as ", kZipExtensions,
                 ". Without a detail request, exports all detail. Files state title, creator, "
-                "rights, licence, source, level and error. GLB files and zips contain "
+                "rights, licence, source, level and error. GLB and USDZ files and zips contain "
                 "the texture, with pictures in JPEG, or in PNG if the "
                 "surface is not opaque.");
 
@@ -188,15 +188,15 @@ static Response export_model(const Request& request, Services& services) {
 static constexpr std::string_view kExportsComponents = R"json({
 "parameters": {
   "path.format": {"name": "format", "in": "path", "required": true,
-    "schema": {"enum": ["glb", "ply", "obj", "stl", "drc", "wrl", "ply.zip", "obj.zip", "wrl.zip"]}},
+    "schema": {"enum": ["glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "ply.zip", "obj.zip", "wrl.zip"]}},
   "texture": {"name": "texture", "in": "query",
-    "description": "Largest width of the texture's pictures in pixels, for GLB and zips; 0 exports vertex colours instead. By default, a size that fits the level of detail",
+    "description": "Largest width of the texture's pictures in pixels, for GLB, USDZ and zips; 0 exports vertex colours instead. By default, a size that fits the level of detail",
     "schema": {"type": "integer", "minimum": 0, "maximum": 16384}},
   "unit": {"name": "unit", "in": "query",
-    "description": "Unit of the file. By default mm for STL, and the unit of the model for other formats. GLB and VRML files are in metres. If the unit of the model is unknown, leave this out; the file then states that it is unknown",
+    "description": "Unit of the file. By default mm for STL and 3MF, m for USDZ, and the unit of the model for other formats. GLB and VRML files are in metres. If the unit of the model is unknown, leave this out; the file then states that it is unknown",
     "schema": {"enum": ["mm", "cm", "m", "in"]}},
   "up": {"name": "up", "in": "query",
-    "description": "Axis of the file that points up. By default z for STL and y for other formats. In GLB and VRML files, y points up",
+    "description": "Axis of the file that points up. By default z for STL and y for other formats. In GLB and VRML files, y points up, and in 3MF files z",
     "schema": {"enum": ["y", "z"]}},
   "compression": {"name": "compression", "in": "query",
     "description": "Compression of a GLB: EXT_meshopt_compression or KHR_draco_mesh_compression. Positions are rounded to the lattice of the level of detail. By default, files are not compressed",

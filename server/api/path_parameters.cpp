@@ -9,8 +9,8 @@
 namespace vitrine::server {
 namespace {
 
-bool is_lower(char c) {
-  return c >= 'a' && c <= 'z';
+bool is_lower_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
 }
 
 bool is_id(std::string_view text) {
@@ -23,12 +23,12 @@ bool is_sha256(std::string_view text) {
 }
 
 bool is_format(std::string_view text) {
-  const auto fits = [](char c) { return is_lower(c) || c == '.'; };
+  const auto fits = [](char c) { return is_lower_or_digit(c) || c == '.'; };
   return !text.empty() && text.size() <= 8 && std::ranges::all_of(text, fits);
 }
 
 bool is_name(std::string_view text) {
-  const auto fits = [](char c) { return is_lower(c) || (c >= '0' && c <= '9') || c == '-'; };
+  const auto fits = [](char c) { return is_lower_or_digit(c) || c == '-'; };
   return !text.empty() && text.size() <= 32 && std::ranges::all_of(text, fits);
 }
 

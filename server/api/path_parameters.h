@@ -27,7 +27,7 @@ std::uint32_t number_in(const Request& request);  // returns {number}: 1 to 999,
 inline std::string_view name_in(const Request& request) {
   return request.parameters["name"];
 }
-// Returns {format}: 1 to 8 characters of a-z and '.'.
+// Returns {format}: 1 to 8 characters of a-z, 0-9 and '.'.
 inline std::string_view format_in(const Request& request) {
   return request.parameters["format"];
 }

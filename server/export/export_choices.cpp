@@ -30,13 +30,13 @@ tl::expected<ExportChoices, ChoiceFault> read_choices(const ChoiceTexts& texts, 
   if (texts.unit) {
     if (!metres_per(*texts.unit))
       return tl::unexpected(ChoiceFault{"unit", std::string(std::string_view(kUnitNames))});
-    if (row.has_fixed_frame && *texts.unit != row.unit) return fixed("unit", row.unit, row);
+    if (row.has_fixed_unit && *texts.unit != row.unit) return fixed("unit", row.unit, row);
     choices.unit = std::string(*texts.unit);
   }
   if (texts.up) {
     if (*texts.up != "y" && *texts.up != "z") return tl::unexpected(ChoiceFault{"up", "y or z"});
     choices.up = *texts.up == "z" ? UpAxis::kZ : UpAxis::kY;
-    if (row.has_fixed_frame && choices.up != row.up) return fixed("up", name_of(row.up), row);
+    if (row.has_fixed_up && choices.up != row.up) return fixed("up", name_of(row.up), row);
   }
   if (texts.compression) {
     const auto* found = std::ranges::find(kCompressionNames, *texts.compression);

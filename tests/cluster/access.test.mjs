@@ -25,7 +25,7 @@ import { Secrets } from "./secrets.mjs";
 
 const bin = process.env.VITRINE_BIN;
 const kBinary = ["glb", "ply", "stl", "drc"]; // other formats have numbers as text, which the manifest may have, too
-const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl"];
+const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz"];
 const kRoles = ["none", "viewer", "operator", "admin"];
 const kPages = ["/", "/models/{id}", "/docs", "/console"];
 const kSide = 30; // vertices per side of the mesh

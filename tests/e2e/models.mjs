@@ -58,11 +58,11 @@ export async function writeBlob(path, n) {
 }
 
 /**
- * Writes a ball of 2 * `around` * `up` triangles as GLB. Its picture has `stripes` red and blue
- * stripes from pole to pole. If there are more stripes than vertices around the ball, vertex
+ * Writes a ball of 2 * `around` * `up` triangles as GLB. Its picture is `columns` pixels wide and has
+ * `stripes` red and blue stripes from pole to pole. If there are more stripes than vertices around the ball, vertex
  * colours cannot show them.
  */
-export async function writeStripedBall(path, { around = 32, up = 16, stripes = 48 } = {}) {
+export async function writeStripedBall(path, { around = 32, up = 16, stripes = 48, columns = 1024 } = {}) {
   const points = [], coordinates = [], corners = [];
   for (let j = 0; j <= up; ++j) {
     for (let i = 0; i <= around; ++i) {
@@ -78,8 +78,7 @@ export async function writeStripedBall(path, { around = 32, up = 16, stripes = 4
       if (j < up - 1) corners.push(at + 1, below, below + 1);
     }
   }
-  const columns = 1024;
-  const picture = png(columns, 512, (x) => (Math.floor((stripes * x) / columns) % 2 === 0 ? [235, 25, 25] : [25, 25, 235]));
+  const picture = png(columns, columns / 2, (x) => (Math.floor((stripes * x) / columns) % 2 === 0 ? [235, 25, 25] : [25, 25, 235]));
   await writeFile(path, glb({ points, coordinates, corners, picture }));
 }
 

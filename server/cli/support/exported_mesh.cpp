@@ -8,9 +8,9 @@
 #include "codec/build/exported_texture.h"
 #include "codec/build/originals.h"
 #include "codec/build/refine.h"
+#include "codec/export/zip.h"
 #include "codec/files/atomic_file.h"
 #include "server/cli/support/output.h"
-#include "server/export/zip.h"
 
 namespace vitrine::server::cli {
 namespace {

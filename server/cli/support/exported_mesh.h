@@ -22,9 +22,9 @@ inline constexpr Flag kTextureFlag = {
     "the detail"};
 
 // A sentence about the pictures for the commands' help texts.
-inline constexpr FixedText kNoteOnCompanions =
-    concatenate("The pictures of a texture are in a .glb, beside other files, or in a zip: OUT.{",
-                kZipChoice, "}.");
+inline constexpr FixedText kNoteOnCompanions = concatenate(
+    "The pictures of a texture are in a .glb or .usdz, beside other files, or in a zip: OUT.{",
+    kZipChoice, "}.");
 
 // Reads kTextureFlag. Returns nullopt if the user gives no width.
 tl::expected<std::optional<std::uint32_t>, Fault> read_texture_side(const Arguments& arguments);
@@ -32,9 +32,10 @@ tl::expected<std::optional<std::uint32_t>, Fault> read_texture_side(const Argume
 // The command-line flags that read_export_choices() reads.
 inline constexpr Flag kUnitInFileFlag = {
     "--unit", "mm|cm|m|in",
-    "unit of OUT; default: mm for .stl, m for .glb and .wrl, the model's unit for the others"};
+    "unit of OUT; default: mm for .stl and .3mf, m for .glb, .wrl and .usdz, the model's unit for "
+    "the others"};
 inline constexpr Flag kUpInFileFlag = {
-    "--up", "y|z", "axis of OUT that points up; default: z for .stl, y for the others"};
+    "--up", "y|z", "axis of OUT that points up; default: z for .stl and .3mf, y for the others"};
 
 inline constexpr Flag kCompressionFlag = {
     "--compression", "none|meshopt|draco",

@@ -335,17 +335,19 @@ TEST(WriteMesh, PlyAndGlbReadBackExactly) {
   }
 }
 
-TEST(WriteMesh, ObjReadsBackExactlyInSinglePrecision) {
+TEST(WriteMesh, ObjAnd3mfReadBackExactlyInSinglePrecision) {
   for (const bool coloured : {false, true}) {
-    const TriangleMesh mesh = sample(coloured);
-    const TriangleMesh back = read_back(mesh, MeshFormat::kObj);
-    EXPECT_EQ(back.faces, mesh.faces);
-    EXPECT_EQ(back.attributes.colours, mesh.attributes.colours);
-    ASSERT_EQ(back.positions.size(), mesh.positions.size());
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      EXPECT_EQ(static_cast<float>(back.positions[v].x), static_cast<float>(mesh.positions[v].x));
-      EXPECT_EQ(static_cast<float>(back.positions[v].y), static_cast<float>(mesh.positions[v].y));
-      EXPECT_EQ(static_cast<float>(back.positions[v].z), static_cast<float>(mesh.positions[v].z));
+    for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::k3mf}) {
+      const TriangleMesh mesh = sample(coloured);
+      const TriangleMesh back = read_back(mesh, format);
+      EXPECT_EQ(back.faces, mesh.faces);
+      EXPECT_EQ(back.attributes.colours, mesh.attributes.colours);
+      ASSERT_EQ(back.positions.size(), mesh.positions.size());
+      for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        EXPECT_EQ(static_cast<float>(back.positions[v].x), static_cast<float>(mesh.positions[v].x));
+        EXPECT_EQ(static_cast<float>(back.positions[v].y), static_cast<float>(mesh.positions[v].y));
+        EXPECT_EQ(static_cast<float>(back.positions[v].z), static_cast<float>(mesh.positions[v].z));
+      }
     }
   }
 }
@@ -363,7 +365,8 @@ TEST(WriteMesh, FarFromTheOriginDetailIsKept) {
   TriangleMesh mesh = grid(16);
   for (Vec3& p : mesh.positions)
     p = p * (1.0 / 1024) + Vec3{500'000, 5'300'000, 250};
-  for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kGlb}) {
+  for (const MeshFormat format :
+       {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kGlb, MeshFormat::k3mf}) {
     const TriangleMesh back = read_back(mesh, format);
     EXPECT_EQ(back.positions, mesh.positions);
     EXPECT_EQ(back.faces, mesh.faces);
@@ -450,6 +453,7 @@ TEST(WriteMesh, KnowsExtensionsInEitherCaseWithOrWithoutDot) {
   EXPECT_EQ(format_of_extension(".PLY"), MeshFormat::kPly);
   EXPECT_EQ(format_of_extension("wrl"), MeshFormat::kVrml);
   EXPECT_EQ(format_of_extension(".drc"), MeshFormat::kDrc);
+  EXPECT_EQ(format_of_extension(".3MF"), MeshFormat::k3mf);
   EXPECT_EQ(format_of_extension("txt"), std::nullopt);
   EXPECT_EQ(format_of_extension(""), std::nullopt);
 }

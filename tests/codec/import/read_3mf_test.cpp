@@ -9,6 +9,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 using vitrine::test::FilesToPack;
 using vitrine::test::zip_of;
@@ -102,6 +103,27 @@ TEST(Read3mf, ColoursOfMaterialsAndGroups) {
       Contains(HasSubstr("textures of 1 face not carried")));
 }
 
+TEST(Read3mf, ColoursOfCornersAreKeptUnlessTheyDifferAtAVertex) {
+  const std::string group =
+      "<m:colorgroup id=\"6\"><m:color color=\"#010203\"/><m:color color=\"#0000FF\"/>"
+      "<m:color color=\"#FFFFFF\"/></m:colorgroup>";
+  const std::string triangle =
+      "<triangle v1=\"0\" v2=\"1\" v3=\"2\" pid=\"6\" p1=\"0\" p2=\"1\" p3=\"2\"/>";
+  const auto read = [&](const std::string& second) {
+    std::string mesh = kTriangle;
+    const std::size_t begin = mesh.find("<triangle ");
+    mesh.replace(begin, mesh.find("</triangles>") - begin, triangle + second);
+    return read_text(package(part(group + object("1", mesh, "pid=\"6\" pindex=\"0\""), kItem)));
+  };
+  const ImportedMesh agreeing =
+      read("<triangle v1=\"2\" v2=\"1\" v3=\"0\" pid=\"6\" p1=\"2\" p2=\"1\" p3=\"0\"/>");
+  EXPECT_EQ(agreeing.mesh.attributes.colours,
+            (std::vector<Colour>{{1, 2, 3}, {0, 0, 255}, {255, 255, 255}}));
+  EXPECT_THAT(agreeing.repairs, Not(Contains(HasSubstr("colours"))));
+  EXPECT_THAT(read("<triangle v1=\"2\" v2=\"1\" v3=\"0\" pid=\"6\" p1=\"0\"/>").repairs,
+              Contains(HasSubstr("colours of 2 faces averaged at the vertices")));
+}
+
 TEST(Read3mf, ThreeMfInsideAPackageIsFoundByItsName) {
   const std::string inner = package(part(object("1", kTriangle), kItem));
   EXPECT_THAT(read_text(zip_of({{"print/bust.3mf", inner}, {"readme.txt", "x"}})).mesh.faces,
@@ -149,7 +171,7 @@ TEST(Read3mf, CutAndFlippedAtEveryByte) {
       "<item objectid=\"2\"/>");
   const auto expect_harmless = [](const std::string& bytes) {
     const auto read = read_mesh(testing::as_bytes(bytes));
-    EXPECT_THAT(read ? "" : read.error().message, ::testing::Not(HasSubstr("\n")));
+    EXPECT_THAT(read ? "" : read.error().message, Not(HasSubstr("\n")));
   };
   for (std::size_t i = 0; i < xml.size(); ++i) {
     expect_harmless(xml.substr(0, i));

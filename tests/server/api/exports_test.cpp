@@ -61,6 +61,7 @@ TEST_F(ExportsApi, SayWhatTheyAreAndWhereTheyAreFrom) {
     EXPECT_THAT(file, HasSubstr("/models/" + id_.to_string())) << format;
   }
   EXPECT_THAT(ask(path_ + "glb").body, HasSubstr(R"("copyright":"Ada, A, CC0-1.0")"));
+  EXPECT_THAT(ask(path_ + "usdz").body, HasSubstr("string creator = \"Ada\"\n"));
   EXPECT_THAT(ask(path_ + "stl").body, StartsWith("Vitrine, unit mm, up z, Bust, CC0-1.0"));
 }
 
@@ -85,12 +86,17 @@ TEST_F(ExportsApi, HaveTheUnitAndTheAxisOfTheFormatOrOfTheQuery) {
   EXPECT_NEAR(asked.high.y, box.high.y, 1e-6);
   const Bounds turned = bounds_in(ask(path_ + "ply?unit=cm&up=z").body);
   EXPECT_NEAR(turned.high.z, box.high.y * 100, 1e-4);
+  const Bounds printed = bounds_in(ask(path_ + "3mf").body);  // its reader turns it to y up
+  EXPECT_NEAR(printed.high.y, box.high.y * 1000, 1e-3);
+  EXPECT_THAT(ask(path_ + "usdz").body, HasSubstr("metersPerUnit = 1\n"));
 }
 
 TEST_F(ExportsApi, RefuseUnitsAndAxesThatTheFormatCannotHave) {
-  for (const char* wrong : {"ply?unit=yard", "ply?up=x", "glb?unit=mm", "glb?up=z", "wrl?unit=in"})
+  for (const char* wrong : {"ply?unit=yard", "ply?up=x", "glb?unit=mm", "glb?up=z", "wrl?unit=in",
+                            "3mf?up=y", "usdz?unit=yard"})
     EXPECT_EQ(ask(path_ + wrong).status, 400) << wrong;
-  EXPECT_EQ(ask(path_ + "glb?unit=m&up=y").status, 200);
+  for (const char* right : {"glb?unit=m&up=y", "3mf?unit=in&up=z", "usdz?unit=cm&up=z"})
+    EXPECT_EQ(ask(path_ + right).status, 200) << right;
 }
 
 TEST_F(ExportsApi, SayThatTheUnitIsUnknown) {
@@ -127,7 +133,7 @@ TEST_F(ExportsApi, TextIsCompressedForClientsThatTakeIt) {
     EXPECT_EQ(private_one.field("content-encoding"), "");
     EXPECT_EQ(ask(path_ + format, "Accept-Encoding: gzip;q=0\r\n").body, plain.body);
   }
-  for (const std::string format : {"ply", "glb", "stl", "drc", "obj.zip"}) {
+  for (const std::string format : {"ply", "glb", "stl", "drc", "3mf", "usdz", "obj.zip"}) {
     const HttpAnswer answer = ask(path_ + format, gzip);
     EXPECT_EQ(answer.status, 200) << format;
     EXPECT_EQ(answer.field("content-encoding"), "") << format;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "codec/export/write_mesh.h"
 #include "server/api/path_parameters.h"
 
 namespace vitrine::server {
@@ -44,8 +45,10 @@ TEST(Routes, AreFoundByTheirPaths) {
   EXPECT_EQ(reached("/api/v1/models/" + kId), "/api/v1/models/{id}");
   EXPECT_EQ(reached("/api/v1/models/" + kId + "/manifest"), "/api/v1/models/{id}/manifest");
   EXPECT_EQ(reached("/api/v1/models/" + kId + "/file.pmesh"), "/api/v1/models/{id}/file.pmesh");
-  EXPECT_EQ(reached("/api/v1/models/" + kId + "/export.glb"),
-            "/api/v1/models/{id}/export.{format}");
+  for (const ExportFormat& row : kExportFormats) {
+    EXPECT_EQ(reached("/api/v1/models/" + kId + "/export." + std::string(row.extension)),
+              "/api/v1/models/{id}/export.{format}");
+  }
   EXPECT_EQ(reached("/api/v1/chunks/" + kSha), "/api/v1/chunks/{sha256}");
 }
 

@@ -121,6 +121,8 @@ TEST_F(TexturedModelApi, AGlbHasTheTextureUnlessItIsDeclined) {
   EXPECT_EQ(pictures("?level=lowest"), std::vector{coarsest});
   EXPECT_EQ(pictures("?texture=" + std::to_string(coarsest)), std::vector{coarsest});
   EXPECT_TRUE(pictures("?texture=0").empty());
+  EXPECT_TRUE(test::read_zip(ask(api_ + "/export.usdz").body)
+                  .contains(id_.to_string() + "_base_colour.jpg"));
   for (const char* wrong : {"-1", "large", "16385"})
     EXPECT_EQ(ask(api_ + "/export.glb?texture=" + wrong).status, 400) << wrong;
 }

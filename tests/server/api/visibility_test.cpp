@@ -86,7 +86,7 @@ std::vector<std::string> queries_of(std::string_view path, const std::string& mo
 std::vector<std::string> exports_of(const std::string& model) {
   const std::string path = "/api/v1/models/" + model;
   std::vector<std::string> paths = {path + "/poster.png?width=240"};
-  for (const char* format : {"glb", "ply", "obj", "stl", "drc", "wrl", "obj.zip"})
+  for (const char* format : {"glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "obj.zip"})
     paths.push_back(path + "/export." + format);
   return paths;
 }
@@ -359,7 +359,7 @@ class Walk {
     if (are_real) ids.insert(ids.end(), {world_.model, world_.scan, world_.job});
     return {{"id", ids},
             {"sha256", names_},
-            {"format", {"glb", "ply", "obj", "stl", "drc", "wrl", "obj.zip"}},
+            {"format", {"glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "obj.zip"}},
             {"name", {"rig"}},
             {"number", {"1"}},
             {"rest", {"docs.js", "model.html"}}};

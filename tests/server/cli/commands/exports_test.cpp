@@ -32,12 +32,13 @@ TEST_F(VitrineCommand, TheErrorOfTheTableBoundsEveryExportOfEveryLevel) {
     vitrine_json({"build", in, "-o", path("out.pmesh"), "--bits", bits, "--unit", "m"});
     const json levels = vitrine_json({"info", path("out.pmesh")})["levels"];
     ASSERT_GE(levels.size(), 3u);
-    for (const std::string extension : {"ply", "glb", "obj", "stl", "drc", "wrl"}) {
+    for (const std::string extension : {"ply", "glb", "obj", "stl", "drc", "wrl", "3mf", "usdz"}) {
       for (std::size_t level = 0; level < levels.size(); ++level) {
         SCOPED_TRACE(extension + " of level " + std::to_string(level) + ", " + bits + " bits");
         const double stated = levels[level]["max_error"].get<double>();
         const std::string out = "out." + extension;
-        vitrine_json({"decode", path("out.pmesh"), "-o", path(out), "--unit", "m", "--up", "y",
+        const std::string up = extension == "3mf" ? "z" : "y";  // read_export() turns a 3MF
+        vitrine_json({"decode", path("out.pmesh"), "-o", path(out), "--unit", "m", "--up", up,
                       "--error", levels[level]["max_error"].dump()});
         const TriangleMesh mesh = read_as(read(out), *format_of_extension(extension));
         EXPECT_EQ(mesh.faces.size(), levels[level]["faces"]);
@@ -65,6 +66,7 @@ TEST_F(VitrineCommand, AnExportHasTheUnitAndTheAxisOfItsFormatOrOfTheFlags) {
   for (const std::string unit : {"mm", "furlong"})
     expect_fault(vitrine({"decode", path("out.pmesh"), "-o", path("out.glb"), "--unit", unit}), 2);
   expect_fault(vitrine({"decode", path("out.pmesh"), "-o", path("out.wrl"), "--up", "z"}), 2);
+  expect_fault(vitrine({"decode", path("out.pmesh"), "-o", path("out.3mf"), "--up", "y"}), 2);
 }
 
 // At each level, a compressed file has the same surface as a plain one, within half a cell of the
@@ -95,7 +97,7 @@ TEST_F(VitrineCommand, ACompressedGlbIsWithinTheLatticeOfItsLevel) {
 
 TEST_F(VitrineCommand, AnUnknownUnitIsNotedIfTheFormatHasOne) {
   const std::string file = model(200);
-  for (const std::string format : {"glb", "stl", "wrl"}) {
+  for (const std::string format : {"glb", "stl", "wrl", "3mf", "usdz"}) {
     const ProgramResult noted = vitrine({"decode", file, "-o", path("out." + format)});
     expect_fault(noted, 0);  // the note has the same form as an error message
     EXPECT_THAT(noted.errors, ::testing::HasSubstr("the unit of the model is unknown"));

@@ -117,7 +117,9 @@ TEST_F(TexturedExports, DecodePacksThemIntoAZip) {
 TEST_F(TexturedExports, AFileThatNeedsNoPicturesIsAlone) {
   EXPECT_EQ(decode("a.obj", {"--texture", "0"})["companions"], json::array());
   EXPECT_EQ(decode("a.glb")["companions"], json::array());
-  EXPECT_EQ(written(), (std::vector<std::string>{"a.glb", "a.obj"}));
+  EXPECT_EQ(decode("a.usdz")["companions"], json::array());
+  EXPECT_EQ(read_zip(read("a.usdz")).count("a_base_colour.jpg"), 1u);
+  EXPECT_EQ(written(), (std::vector<std::string>{"a.glb", "a.obj", "a.usdz"}));
   EXPECT_THAT(read("a.obj"), Not(HasSubstr("mtllib")));
 }
 

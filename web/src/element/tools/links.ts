@@ -2,7 +2,7 @@
 // Links that a visitor can share: to what the viewer shows now, and to files of the model at a level
 // of detail.
 
-export const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl"] as const;
+export const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz"] as const;
 export type ExportDetail = { level: "lowest" | "highest" } | { triangles: number };
 
 /** Returns the key of an element's setting in the URL fragment. Each element with an ID has keys of its own. */

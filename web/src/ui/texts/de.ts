@@ -59,6 +59,8 @@ export const de: PageTexts = {
     stl: "STL, für den 3D-Druck",
     drc: "Draco",
     wrl: "VRML 97",
+    "3mf": "3MF, für den farbigen 3D-Druck",
+    usdz: "USDZ, für iPhone und iPad",
     pmesh: "PMESH, alle Stufen in einer Datei",
   },
 

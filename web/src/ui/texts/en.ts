@@ -57,6 +57,8 @@ export const en = {
     stl: "STL, for printing",
     drc: "Draco",
     wrl: "VRML 97",
+    "3mf": "3MF, for printing in colour",
+    usdz: "USDZ, for iPhone and iPad",
     pmesh: "PMESH, all levels in one file",
   },
 

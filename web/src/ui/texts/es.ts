@@ -59,6 +59,8 @@ export const es: PageTexts = {
     stl: "STL, para la impresión",
     drc: "Draco",
     wrl: "VRML 97",
+    "3mf": "3MF, para la impresión en color",
+    usdz: "USDZ, para iPhone y iPad",
     pmesh: "PMESH, todos los niveles en un archivo",
   },
 

@@ -59,6 +59,8 @@ export const fr: PageTexts = {
     stl: "STL, pour l’impression",
     drc: "Draco",
     wrl: "VRML 97",
+    "3mf": "3MF, pour l’impression en couleur",
+    usdz: "USDZ, pour iPhone et iPad",
     pmesh: "PMESH, tous les niveaux dans un fichier",
   },
 

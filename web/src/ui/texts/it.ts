@@ -59,6 +59,8 @@ export const it: PageTexts = {
     stl: "STL, per la stampa",
     drc: "Draco",
     wrl: "VRML 97",
+    "3mf": "3MF, per la stampa a colori",
+    usdz: "USDZ, per iPhone e iPad",
     pmesh: "PMESH, tutti i livelli in un file",
   },
 
