@@ -83,10 +83,11 @@ std::vector<std::string> queries_of(std::string_view path, const std::string& mo
   return {""};
 }
 
+// Leaves out USDZ, which lists indices with commas, as a manifest may.
 std::vector<std::string> exports_of(const std::string& model) {
   const std::string path = "/api/v1/models/" + model;
   std::vector<std::string> paths = {path + "/poster.png?width=240"};
-  for (const char* format : {"glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "obj.zip"})
+  for (const char* format : {"glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "obj.zip"})
     paths.push_back(path + "/export." + format);
   return paths;
 }
