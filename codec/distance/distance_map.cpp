@@ -36,9 +36,8 @@ std::vector<double> signed_distances(const TriangleMesh& a, const TriangleBvh& b
 
 // Returns the absolute distance that 95 % of `distances` do not exceed.
 double usual(const std::vector<double>& distances) {
-  std::vector<double> sizes;
-  for (const double distance : distances)
-    sizes.push_back(std::abs(distance));
+  std::vector<double> sizes(distances.size());
+  std::ranges::transform(distances, sizes.begin(), [](double d) { return std::abs(d); });
   const auto p95 = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 19 / 20);
   std::nth_element(sizes.begin(), p95, sizes.end());
   return *p95;
