@@ -16,7 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::chrono::milliseconds kTimeout{20};
+constexpr std::chrono::milliseconds kAnswerTime{20};
 
 // A port with a board that answers at once. The process is suspended while it writes `fatal`.
 class SuspendedPort : public SerialPort {
@@ -27,7 +27,7 @@ class SuspendedPort : public SerialPort {
   Expected<void> write(std::string_view bytes) override {
     sent.emplace_back(bytes);
     unread_ += answers(sent.back());
-    if (bytes == fatal) std::this_thread::sleep_for(2 * kTimeout);
+    if (bytes == fatal) std::this_thread::sleep_for(2 * kAnswerTime);
     return {};
   }
   Expected<std::string> read(Clock::time_point) override { return std::exchange(unread_, ""); }
@@ -55,7 +55,7 @@ TEST(SuspendedProcess, DoesNotMoveAHorusTableAfterItHasAskedForThePosition) {
   SuspendedPort port;
   port.fatal = "?";
   port.answers = horus_answer;
-  const auto board = make_horus(port, kTimeout);
+  const auto board = make_horus(port, kAnswerTime);
   EXPECT_THAT(board->turn_to(90).error().message, HasSubstr("does not answer '?' in time"));
   EXPECT_THAT(port.sent, ElementsAre("?"));
 }
@@ -64,7 +64,7 @@ TEST(SuspendedProcess, DoesNotMoveAHorusTableAfterItHasSwitchedTheMotorOn) {
   SuspendedPort port;
   port.fatal = "M17\n";
   port.answers = horus_answer;
-  const auto board = make_horus(port, kTimeout);
+  const auto board = make_horus(port, kAnswerTime);
   EXPECT_THAT(board->turn_to(90).error().message, HasSubstr("does not answer 'M17' in time"));
   EXPECT_THAT(port.sent, ElementsAre("?", "M17\n"));
 }
@@ -73,7 +73,7 @@ TEST(SuspendedProcess, DoesNotMoveAFabScanTableAfterItHasSwitchedTheMotorOn) {
   SuspendedPort port;
   port.fatal = "M17\n";
   port.answers = fabscan_answer;
-  const auto board = make_fabscan(port, kTimeout, 3200);
+  const auto board = make_fabscan(port, kAnswerTime, 3200);
   EXPECT_THAT(board->turn_to(90).error().message, HasSubstr("does not answer 'M17' in time"));
   EXPECT_THAT(port.sent, ElementsAre("M17\n"));
 }

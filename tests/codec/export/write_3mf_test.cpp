@@ -20,20 +20,21 @@ using vitrine::testing::coloured_tetrahedron;
 using vitrine::testing::grid;
 using vitrine::testing::tetrahedron;
 
-std::vector<std::uint8_t> file_of(const TriangleMesh& mesh, const ExportOptions& options = {}) {
+std::vector<std::uint8_t> bytes_of_3mf(const TriangleMesh& mesh,
+                                       const ExportOptions& options = {}) {
   auto file = write_mesh(mesh, MeshFormat::k3mf, options);
   EXPECT_TRUE(file) << file.error().message;
   return file ? std::move(*file) : std::vector<std::uint8_t>();
 }
 
 std::string model_of(const TriangleMesh& mesh, const ExportOptions& options = {}) {
-  return test::read_zip(as_text(file_of(mesh, options))).at("3D/3dmodel.model");
+  return test::read_zip(as_text(bytes_of_3mf(mesh, options))).at("3D/3dmodel.model");
 }
 
 TEST(Write3mf, ReadsBackWithItsUnitAndColours) {
   const TriangleMesh mesh = coloured_tetrahedron();
   for (const std::string_view unit : {"mm", "cm", "m", "in"}) {
-    const auto read = read_mesh(file_of(mesh, {.unit = unit}));
+    const auto read = read_mesh(bytes_of_3mf(mesh, {.unit = unit}));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->unit, unit);
     EXPECT_EQ(read->mesh.positions, mesh.positions);
@@ -44,7 +45,7 @@ TEST(Write3mf, ReadsBackWithItsUnitAndColours) {
 }
 
 TEST(Write3mf, HasThePartsOfAPackage) {
-  const auto parts = test::read_zip(as_text(file_of(tetrahedron())));
+  const auto parts = test::read_zip(as_text(bytes_of_3mf(tetrahedron())));
   EXPECT_EQ(parts.size(), 3u);
   EXPECT_THAT(parts.at("[Content_Types].xml"), HasSubstr("3dmanufacturing-3dmodel+xml"));
   EXPECT_THAT(parts.at("_rels/.rels"), HasSubstr("Target=\"/3D/3dmodel.model\""));
@@ -77,7 +78,7 @@ TEST(Write3mf, NoTitleBreaksTheXml) {
               HasSubstr("&quot;&gt;&lt;x y=&#39;1&#39;&gt;&amp;amp;]]&gt; &lt;!-- \xC3\xB6"));
   EXPECT_THAT(model, Not(HasSubstr("\xEF\xBF\xBE")));
   EXPECT_THAT(model, Not(HasSubstr("\xEF\xBF\xBF")));
-  const auto read = read_mesh(file_of(tetrahedron(), options));
+  const auto read = read_mesh(bytes_of_3mf(tetrahedron(), options));
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->mesh.faces, tetrahedron().faces);
 }

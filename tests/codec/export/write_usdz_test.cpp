@@ -41,7 +41,7 @@ std::string layer_of(const TriangleMesh& mesh, const ExportOptions& options = {}
 
 // Returns a material with four pictures. Two faces of a quad have different coordinates at the
 // vertices that they share.
-Texturing seams_everywhere(const TriangleMesh& mesh) {
+Texturing four_pictures_with_seams(const TriangleMesh& mesh) {
   Texturing texturing;
   for (const char* name : {"base.png", "normal.png", "surface.png", "emission.png"})
     texturing.pictures.push_back({name, write_png({1, 1, {9, 9, 9, 255}}).value()});
@@ -89,7 +89,8 @@ TEST(WriteUsdz, HoldsTheMeshItsNormalsAndItsColoursInLinearLight) {
 
 TEST(WriteUsdz, TheLayerIsFirstAndAllFilesAreAligned) {
   const TriangleMesh mesh = grid(4);
-  const auto files = write_textured_mesh(mesh, seams_everywhere(mesh), MeshFormat::kUsdz, "cat");
+  const auto files =
+      write_textured_mesh(mesh, four_pictures_with_seams(mesh), MeshFormat::kUsdz, "cat");
   const std::string file = as_text(files.value().front().bytes);
   EXPECT_EQ(file.find("#usda 1.0"), 64u);
   std::size_t pictures = 0;
@@ -101,7 +102,7 @@ TEST(WriteUsdz, TheLayerIsFirstAndAllFilesAreAligned) {
 TEST(WriteUsdz, HoldsTheTextureWithCoordinatesForEachCorner) {
   TriangleMesh mesh = grid(4);
   mesh.attributes.colours.assign(mesh.positions.size(), {1, 2, 3});
-  const Texturing texturing = seams_everywhere(mesh);
+  const Texturing texturing = four_pictures_with_seams(mesh);
   auto package = package_of(mesh, texturing);
   ASSERT_EQ(package.size(), 5u);
   EXPECT_EQ(package["cat_base.png"], as_text(texturing.pictures[0].bytes));
@@ -121,7 +122,7 @@ TEST(WriteUsdz, HoldsTheTextureWithCoordinatesForEachCorner) {
 
 TEST(WriteUsdz, TheSurfaceTakesTheChannelsOfItsPictures) {
   const TriangleMesh mesh = grid(4);
-  Texturing texturing = seams_everywhere(mesh);
+  Texturing texturing = four_pictures_with_seams(mesh);
   const std::string layer = package_of(mesh, texturing)["model.usda"];
   for (const std::string connection :
        {"color3f inputs:diffuseColor.connect = </model/material/base_colour.outputs:rgb>",
