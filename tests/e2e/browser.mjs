@@ -26,12 +26,17 @@ export async function newContext(browser, options) {
 
 const kEvents = ["first-paint", "refine", "picture", "memory", "progress", "load", "error", "camera-change"];
 
-/** Runs in the page: sets `attributes` on each <progressive-mesh> as soon as it is in the document. */
+/**
+ * Runs in the page: sets `attributes` on each <progressive-mesh> as soon as it is in the document. The policy of the daemon's pages
+ * forbids the attribute `style`, but not its property.
+ */
 function dress(attributes) {
   new MutationObserver(() => {
     for (const viewer of document.querySelectorAll("progressive-mesh:not([data-dressed])")) {
       viewer.dataset.dressed = "";
-      for (const [name, value] of Object.entries(attributes)) viewer.setAttribute(name, value);
+      const { style = "", ...others } = attributes;
+      if (style) viewer.style.cssText = style;
+      for (const [name, value] of Object.entries(others)) viewer.setAttribute(name, value);
     }
   }).observe(document, { childList: true, subtree: true });
 }
