@@ -168,8 +168,7 @@ tl::expected<std::optional<MapTarget>, Fault> map_from(const Arguments& argument
   const std::string file = arguments.text("--map");
   const auto format = format_of_extension(std::filesystem::path(file).extension().string());
   if (!format || !has_colours(*format))
-    return arguments.wrong_value(
-        "--map", fmt::format("a file of a format with colours, such as {}", "map.ply"));
+    return arguments.wrong_value("--map", "a file of a format with colours, such as map.ply");
   if (const auto free = check_output(arguments, file); !free) return failed(free.error());
   return MapTarget{file, *format, *range};
 }
