@@ -30,7 +30,8 @@ class HorusController final : public Controller {
  private:
   // Waits for a reply of the given kind and skips all other replies before it. Returns nullopt
   // after `timeout`.
-  Expected<std::optional<horus::Reply>> await(ReplyKind kind, milliseconds timeout);
+  Expected<std::optional<horus::Reply>> await(ReplyKind kind,
+                                              SerialPort::Clock::time_point deadline);
   Expected<std::optional<horus::Reply>> ask_modes();
   Expected<std::string> ask_version();
   Expected<std::string> restart();
@@ -89,8 +90,8 @@ Expected<void> HorusController::command(const std::string& line, milliseconds ti
   }
 }
 
-Expected<std::optional<horus::Reply>> HorusController::await(ReplyKind kind, milliseconds timeout) {
-  const auto deadline = SerialPort::Clock::now() + timeout;
+Expected<std::optional<horus::Reply>> HorusController::await(
+    ReplyKind kind, SerialPort::Clock::time_point deadline) {
   while (true) {
     const auto heard = talk_.hear(deadline);
     if (!heard) return tl::unexpected(heard.error());
@@ -105,9 +106,10 @@ Expected<std::optional<horus::Reply>> HorusController::await(ReplyKind kind, mil
 // starting up, and a motion that an earlier process started must end first.
 Expected<std::optional<horus::Reply>> HorusController::ask_modes() {
   for (milliseconds asked{0}; asked < kBoot; asked += kAskAgain) {
+    const auto deadline = SerialPort::Clock::now() + kAskAgain;
     if (auto said = talk_.say(std::string("\n") + horus::kAskModes); !said)
       return tl::unexpected(said.error());
-    auto modes = await(ReplyKind::kModes, kAskAgain);
+    auto modes = await(ReplyKind::kModes, deadline);
     if (!modes || *modes) return modes;
   }
   return std::nullopt;
@@ -116,16 +118,18 @@ Expected<std::optional<horus::Reply>> HorusController::ask_modes() {
 // Returns the text of the banner without restarting the board. The text has no version if the board
 // does not answer the version query.
 Expected<std::string> HorusController::ask_version() {
+  const auto deadline = SerialPort::Clock::now() + kAskAgain;
   if (auto said = talk_.say(horus::kAskVersion); !said) return tl::unexpected(said.error());
-  const auto version = await(ReplyKind::kVersion, kAskAgain);
+  const auto version = await(ReplyKind::kVersion, deadline);
   if (!version) return tl::unexpected(version.error());
   return *version ? "Horus " + (*version)->text : "Horus";
 }
 
 Expected<std::string> HorusController::restart() {
+  const auto deadline = SerialPort::Clock::now() + timeout_;
   if (auto sent = talk_.port().write({&horus::kReset, 1}); !sent)
     return tl::unexpected(sent.error());
-  const auto banner = await(ReplyKind::kBanner, timeout_);
+  const auto banner = await(ReplyKind::kBanner, deadline);
   if (!banner) return tl::unexpected(banner.error());
   if (*banner && (*banner)->text.starts_with("Horus ")) return (*banner)->text;
   const std::string said = *banner ? (*banner)->text : heard_;

@@ -25,8 +25,9 @@ class SerialPort {
 
   // May be called from any thread.
   virtual Expected<void> write(std::string_view bytes) = 0;
-  // Returns the bytes received since the last read(). If there are none, waits for a byte until
-  // `deadline`, then returns an empty string. Only one thread at a time may call read().
+  // Returns the bytes received since the last read(). If there are none, waits until some arrive.
+  // Returns an empty string if none arrive before `deadline`. Only one thread at a time may call
+  // read().
   virtual Expected<std::string> read(Clock::time_point deadline) = 0;
   // Makes a read() in progress and all later read() calls fail with kState. Callable from any
   // thread.

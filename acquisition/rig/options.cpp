@@ -13,7 +13,7 @@ namespace {
 
 // The text of --help. {} stands for the list of mesh formats.
 constexpr std::string_view kUsage =
-    R"(usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... -- COMMAND [ARGUMENT]...
+    R"(usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... [-- COMMAND [ARGUMENT]...]
 
 Simulates a laser scanner: a GigE Vision camera on a loopback address and a motor board on a USB bus
 that only COMMAND sees. Runs COMMAND and exits with its exit code.
@@ -30,7 +30,8 @@ that only COMMAND sees. Runs COMMAND and exits with its exit code.
                        speed of the table (default: motions complete at once)
   --table FILE         file that keeps the table's angle for the next rig, so that a scan can be
                        resumed (default: each rig starts at 0 degrees)
-  --fault NAME[@STEP]  fault at table motion STEP (default: the start); may be repeated:
+  --fault NAME[@STEP]  simulate the fault after motion STEP of the table (default: from the start;
+                       unplug, stall and missed-trigger: after motion 1); may be repeated:
                        lost-packets, camera-unplug, usb-unplug, motor-stall, missed-trigger, drift,
                        laser-out, second-stripe
   --stripe SHAPE       brightness across the line: gaussian, top-hat or skewed (default gaussian)

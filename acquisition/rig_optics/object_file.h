@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object's mesh, placed on the table.
+// Reads the mesh of the simulated object and places it on the table.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of the Draco bitstream [Draco] that both the encoder and the reader of the base mesh use.
-// Internal to codec/base.
+// Constants of the Draco bitstream [Draco] that both the encoder and the reader of the base mesh
+// use. Internal to codec/base.
 #pragma once
 
 #include <cstdint>

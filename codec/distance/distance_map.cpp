@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/core/bounds.h"
 #include "codec/distance/rigid_alignment.h"
 #include "codec/distance/surface_distance.h"
 #include "codec/distance/surface_sampler.h"
@@ -15,6 +16,8 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kAlignSamples = 5'000;
+// Distances of equal surfaces, as a share of the diagonal: rounding of the arithmetic.
+constexpr double kNoise = 1e-9;
 // Colours at -range, 0 and range, as sRGB values.
 constexpr Vec3 kBelow{33, 72, 184}, kSame{224, 224, 220}, kAbove{190, 38, 34};
 
@@ -34,13 +37,14 @@ std::vector<double> signed_distances(const TriangleMesh& a, const TriangleBvh& b
   return distances;
 }
 
-// Returns the absolute distance that 95 % of `distances` do not exceed.
-double usual(const std::vector<double>& distances) {
+// Returns the absolute distance that 95 % of `distances` do not exceed. If that is rounding noise,
+// because only a small part of a surface has changed, returns the largest distance.
+double usual(const std::vector<double>& distances, double noise) {
   std::vector<double> sizes(distances.size());
   std::ranges::transform(distances, sizes.begin(), [](double d) { return std::abs(d); });
   const auto p95 = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 19 / 20);
   std::nth_element(sizes.begin(), p95, sizes.end());
-  return *p95;
+  return *p95 > noise ? *p95 : std::max(noise, *std::ranges::max_element(sizes));
 }
 
 Colour colour_of(double distance, double range) {
@@ -68,7 +72,9 @@ Expected<DistanceMap> distance_map(TriangleMesh a, const TriangleMesh& b,
                                    std::optional<double> range) {
   if (auto ok = check_measurable(a, b); !ok) return tl::unexpected(ok.error());
   const std::vector<double> distances = signed_distances(a, TriangleBvh(b));
-  DistanceMap map{.mesh = std::move(a), .range = range.value_or(usual(distances))};
+  const Bounds box = bounds_of(b.positions);
+  const double noise = kNoise * length(box.high - box.low);
+  DistanceMap map{.mesh = std::move(a), .range = range ? *range : usual(distances, noise)};
   map.mesh.attributes.colours.clear();
   for (const double distance : distances)
     map.mesh.attributes.colours.push_back(colour_of(distance, map.range));

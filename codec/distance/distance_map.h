@@ -23,7 +23,8 @@ struct DistanceMap {
 
 // Colours each vertex of A by its distance to the closest point of B: grey at 0, red at `range` and
 // more on the side to which B's face there points, blue on the other side. Without `range`, takes
-// the distance that 95 % of the vertices do not exceed. Fails (kBadInput) like measure().
+// the distance that 95 % of the vertices do not exceed, or the largest one if over 95 % lie on B.
+// Fails (kBadInput) like measure().
 Expected<DistanceMap> distance_map(TriangleMesh a, const TriangleMesh& b,
                                    std::optional<double> range = {});
 

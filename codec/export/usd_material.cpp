@@ -76,6 +76,11 @@ void put_surface_inputs(FileWriter& out, const Material& material) {
   for (const auto& [map, input, channel] : kMappedInputs) {
     if (material.*map) put_connection(out, input, channel);
   }
+  if (!material.base_colour_map) {
+    const auto& [red, green, blue, opacity] = material.base_colour;
+    out.text("            color3f inputs:diffuseColor = (");
+    out.numbers<double>({red, green, blue}, ", "), out.text(")\n");
+  }
   if (!material.metallic_roughness_map) {
     put_value(out, "float inputs:metallic", material.metallic);
     put_value(out, "float inputs:roughness", material.roughness);

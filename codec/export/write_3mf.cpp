@@ -2,6 +2,7 @@
 // Writes 3MF [3MF]: a package with one object. Vertex colours are a colour group of the materials
 // extension, in which colour i is that of vertex i. 3MF has no normals.
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -103,6 +104,7 @@ void put_vertices(const TriangleMesh& mesh, FileWriter& out) {
 void put_triangles(const TriangleMesh& mesh, bool is_coloured, FileWriter& out) {
   out.text("<triangles>\n");
   for (const auto& [a, b, c] : mesh.faces) {
+    if (a == b || b == c || c == a) continue;  // 3MF forbids them; they have no area
     out.text("<triangle"), put_number(out, "v1", a), put_number(out, "v2", b);
     put_number(out, "v3", c);
     if (is_coloured) {
@@ -128,10 +130,14 @@ void put_object(const TriangleMesh& mesh, std::string_view title, FileWriter& ou
   out.text("</mesh>\n</object>\n");
 }
 
-FileBytes model_part(const TriangleMesh& mesh, const ExportOptions& options) {
+std::size_t expected_size(const TriangleMesh& mesh) {
   const bool is_coloured = !mesh.attributes.colours.empty();
-  FileWriter out(4096 + mesh.positions.size() * (is_coloured ? 88 : 60) +
-                 mesh.faces.size() * (is_coloured ? 100 : 56));
+  return 4096 + mesh.positions.size() * (is_coloured ? 88 : 60) +
+         mesh.faces.size() * (is_coloured ? 100 : 56);
+}
+
+FileBytes model_part(const TriangleMesh& mesh, const ExportOptions& options) {
+  FileWriter out(expected_size(mesh));
   out.text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model");
   const std::string_view unit = name_in_3mf(kUnitNames, options.unit);
   if (!unit.empty()) put_text(out, "unit", unit);
@@ -150,6 +156,9 @@ FileBytes bytes_of_text(std::string_view text) {
 }  // namespace
 
 Expected<FileBytes> write_3mf(const TriangleMesh& mesh, const ExportOptions& options) {
+  // zip() would refuse the text as well, but only after it has been written to memory.
+  if (expected_size(mesh) > std::numeric_limits<std::uint32_t>::max())
+    return fail(ErrorCode::kLimit, "the mesh is too large for 3MF; ask for fewer triangles");
   const MeshFile parts[] = {{"[Content_Types].xml", bytes_of_text(kContentTypes)},
                             {"_rels/.rels", bytes_of_text(kRelationships)},
                             {"3D/3dmodel.model", model_part(mesh, options)}};

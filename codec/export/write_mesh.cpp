@@ -123,7 +123,8 @@ ExportOptions options_of_file(MeshFormat format, const ExportOptions& options, d
   return file;
 }
 
-// Scales positions, and turns positions and normals so that z points up.
+// Multiplies the positions by `factor`. If `has_z_up`, also rotates positions and normals from y up
+// to z up.
 void place(TriangleMesh& mesh, std::vector<Vec3>& normals, double factor, bool has_z_up) {
   for (Vec3& p : mesh.positions)
     p = has_z_up ? turn_y_up_to_z(p * factor) : p * factor;

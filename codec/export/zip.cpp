@@ -37,6 +37,7 @@ Bytes deflated(const Bytes& bytes) {
   stream.avail_out = static_cast<uInt>(out.size());
   if (deflate(&stream, Z_FINISH) != Z_STREAM_END) throw std::bad_alloc();
   out.resize(stream.total_out);
+  out.shrink_to_fit();
   return out;
 }
 

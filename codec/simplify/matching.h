@@ -60,7 +60,7 @@ class CollapseMatcher {
  private:
   void sum_rings();
   void list_edges(const LevelRules& rules);
-  // The edges at a range of the live vertices, each at its smaller vertex.
+  // The edges of some live vertices. Each edge is listed once, at its vertex with the smaller ID.
   struct EdgeList;
   EdgeList edges_at(const LevelRules& rules, std::span<const VertexId> live) const;
   Vec3 likely_target(const LevelRules& rules, Corner c) const;
@@ -76,7 +76,8 @@ class CollapseMatcher {
 
   const Surface& surface_;
   unsigned threads_;
-  // The key holds the leading bits of the cost as a float. The index is a corner.
+  // Edges that may collapse, to be sorted by cost. Key: leading bits of the cost as a float. Index:
+  // the corner that identifies the edge. `scratch_` is for radix_sort().
   std::vector<KeyedIndex> edges_, scratch_;
   // Per vertex: whether the vertex can no longer collapse in this level.
   std::vector<std::uint8_t> is_taken_;

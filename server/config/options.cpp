@@ -313,9 +313,9 @@ constexpr std::array kOptions{
     Option{.key = "store",
            .type = kUrl,
            .default_value = "",
-           .doc = "S3-compatible bucket for the objects: "
-                  "s3://BUCKET/PREFIX?endpoint=URL&region=R&style=path, or style=virtual. Empty: "
-                  "in the data folder.",
+           .doc = "S3-compatible bucket: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=S. S is "
+                  "path (bucket in the URL's path; default with an endpoint) or virtual (in its "
+                  "host name). Empty: objects are in the data folder.",
            .apply = store_url},
     Option{.key = "store-access-key",
            .type = kText,
@@ -361,22 +361,21 @@ constexpr std::array kOptions{
     Option{.key = "access-log-size",
            .type = kBytes,
            .default_value = "1073741824",
-           .doc = "Size at which the access log is renamed to FILE.old, which replaces an older "
-                  "one, and begun again. 0: never.",
+           .doc = "Size at which the access log is renamed to FILE.old, replacing an older one, "
+                  "and a new log is started. 0: never.",
            .apply = number<&S::access_log_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "log-addresses",
-           .type = kText,
+           .type = kAddressForm,
            .default_value = "full",
-           .doc = "Clients' addresses in logs: full, or short (the network: 24 bits of an IPv4 "
-                  "address, 48 bits of an IPv6 address).",
+           .doc = "How logs show clients' addresses: full, or short (only the network: 24 bits of "
+                  "an IPv4 address, 48 bits of an IPv6 address).",
            .apply = log_addresses},
     Option{.key = "count-visits",
-           .type = kText,
+           .type = kYesNo,
            .default_value = "yes",
-           .doc =
-               "Whether to count visits to published models: yes or no. Only sums for each model "
-               "and day are stored: visits, seconds and levels of detail.",
+           .doc = "Whether to count visits to published models. Only sums for each model and day "
+                  "are stored: visits, seconds and levels of detail.",
            .apply = count_visits,
            .is_reloadable = true},
     Option{.key = "threads",
@@ -403,9 +402,8 @@ constexpr std::array kOptions{
     Option{.key = "request-rate",
            .type = kCount,
            .default_value = "1000",
-           .doc =
-               "Requests per second of each address (or IPv6 /64 network) and each token; in a "
-               "burst, up to ten times as many. Responses from memory do not count. 0: no limit.",
+           .doc = "Requests per second of each address (or IPv6 /64 network) and of each token; "
+                  "ten times as many in a burst. Responses from memory do not count. 0: no limit.",
            .apply = number<&S::request_rate, 0, 1'000'000>},
     Option{.key = "min-rate",
            .type = kBytes,
@@ -441,19 +439,19 @@ constexpr std::array kOptions{
     Option{.key = "answer-memory",
            .type = kBytes,
            .default_value = "536870912",
-           .doc = "Memory for responses that clients have not received yet. Beyond it, requests "
-                  "fail with 503; a response that is larger by itself fails with 507. A client's "
-                  "address that already receives one gets half of it. Responses sent from files "
-                  "need none.",
+           .doc = "Memory for responses that clients have not received yet. A response fails with "
+                  "503 if it does not fit beside the others, and with 507 if it is larger than "
+                  "this memory. An address that is receiving a response gets another only while "
+                  "at most half of the memory is used. Responses from files need none.",
            .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "hosts",
            .type = kNames,
            .default_value = "",
            .doc = "Host names, without ports, under which clients reach this daemon. Requests for "
-                  "other names are refused (DNS rebinding). Numeric addresses, localhost and the "
-                  "hosts of 'public-url' and 'scan-address' are always answered. If 'public-url' "
-                  "is empty, too: 'listen' answers every name, 'admin-listen' none.",
+                  "other names are refused (DNS rebinding), except numeric addresses, localhost "
+                  "and the hosts of 'public-url' and 'scan-address'. If both 'hosts' and "
+                  "'public-url' are empty, only 'admin-listen' refuses other names.",
            .apply = hosts,
            .is_reloadable = true},
     Option{.key = "allowed-origins",
@@ -487,19 +485,20 @@ constexpr std::array kOptions{
     Option{.key = "scrub-rate",
            .type = kBytes,
            .default_value = "8000000",
-           .doc = "Bytes per second that the check of all stored files reads. The check runs in "
-                  "the background, at the start and every week. 0 disables it.",
+           .doc = "Bytes per second that the background check of all stored files reads. It runs "
+                  "when the daemon starts, and then weekly. 0 disables it.",
            .apply = number<&S::scrub_rate, 0, 1'000'000'000'000>},
     Option{.key = "quota",
            .type = kBytes,
            .default_value = "0",
-           .doc = "Largest total size of all models and uploads. 0: no limit.",
+           .doc = "Largest total size of all models and uploads; uploads beyond it are refused. "
+                  "0: no limit.",
            .apply = number<&S::quota_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
     Option{.key = "disk-reserve",
            .type = kBytes,
            .default_value = "1000000000",
-           .doc = "Free space that uploads leave on the disks of data and uploads. With less, "
-                  "/readyz and the metric vitrine_disk_nearly_full say so.",
+           .doc = "Free space to keep on the disks of 'data' and 'uploads'; uploads that need it "
+                  "are refused. With less, /readyz and vitrine_disk_nearly_full say so.",
            .apply = number<&S::disk_reserve_bytes, 0, std::numeric_limits<std::int64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "webhook-hosts",
@@ -511,9 +510,8 @@ constexpr std::array kOptions{
     Option{.key = "purge-urls",
            .type = kUrls,
            .default_value = "",
-           .doc =
-               "Shared caches to ask to forget chunks that are no longer public: URLs, separated "
-               "by commas. The daemon sends PURGE URL/api/v1/chunks/SHA256.",
+           .doc = "URLs of shared caches. For each chunk that is no longer public, the daemon "
+                  "sends them PURGE URL/api/v1/chunks/SHA256.",
            .apply = purge_urls},
     Option{.key = "webhook-secret",
            .type = kText,
@@ -539,7 +537,7 @@ constexpr std::array kOptions{
            .type = kUrl,
            .default_value = "",
            .doc = "URL prefix that visitors see, if a proxy changes it: https://museum.example. "
-                  "Empty: taken from each request.",
+                  "Empty: taken from the Host field of each request.",
            .apply = address<&S::public_url>,
            .is_reloadable = true},
 };
@@ -587,6 +585,10 @@ std::string_view type_name(OptionType type) {
       return "URL,...";
     case kText:
       return "TEXT";
+    case kAddressForm:
+      return "full|short";
+    case kYesNo:
+      return "yes|no";
     case kNames:
       return "NAME,...";
     case kNetworks:

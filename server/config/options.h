@@ -25,7 +25,9 @@ enum class OptionType {
   kNetworks,
   kUrl,
   kUrls,
-  kText
+  kText,
+  kAddressForm,
+  kYesNo
 };
 
 struct Option {

@@ -7,7 +7,8 @@ namespace vitrine::server {
 namespace {
 
 constexpr Pacer::Duration kPoll{0.02};  // interval at which the kernel's send queue is checked
-constexpr Pacer::Duration kNewsInterval{0.1};  // interval at which promises are checked
+// Seconds between checks whether a `seconds` request needs a new promise.
+constexpr Pacer::Duration kPromiseInterval{0.1};
 
 }  // namespace
 
@@ -112,7 +113,7 @@ std::optional<StreamState::Time> StreamState::wakes(Time now) const {
       std::ranges::any_of(models_, [](const Sharer& model) { return model.stream.is_timed(); });
   if (pacer_.in_flight() == 0 && !is_timed) return std::nullopt;
   if (is_granted_ahead() && pacer_.in_flight() > 0) return now + kPoll;
-  if (is_timed) return now + kNewsInterval;
+  if (is_timed) return now + kPromiseInterval;
   if (is_held_) return now + Pacer::kNudge;
   return std::nullopt;
 }

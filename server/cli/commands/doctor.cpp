@@ -90,10 +90,11 @@ constexpr Flag kDoctorFlags[] = {
 }  // namespace
 
 const Command kDoctor = {.name = "doctor",
-                         .summary = "Checks a server for problems and says how to solve them.",
+                         .summary = "Checks a server for problems and says how to fix them.",
                          .details =
                              "Checks the clock and limits of this machine, with --data also an "
-                             "installation, and with --url also a server as visitors reach it.",
+                             "installation, and with --url also a server as visitors reach it. "
+                             "Exit code 1 if a check fails; warnings do not change it.",
                          .flags = kDoctorFlags,
                          .run = examine};
 

@@ -18,11 +18,18 @@
 #include "server/cli/support/reading.h"
 #include "server/cli/support/surface_file.h"
 #include "server/cli/support/surface_textures.h"
+#include "server/export/export_choices.h"
 
 namespace vitrine::server::cli {
 namespace {
 
 using nlohmann::json;
+
+// Joins the texts that are not empty into one note.
+std::string joined(std::vector<std::string> notes) {
+  std::erase(notes, "");
+  return fmt::format("{}", fmt::join(notes, "; "));
+}
 
 // Returns a note if the units of the surfaces make the numbers doubtful. Otherwise returns an empty
 // text.
@@ -49,8 +56,8 @@ std::vector<std::string> notes_on_looks(const SurfaceInput& a, const SurfaceInpu
 // Joins the reasons to doubt the numbers into one note. Returns an empty text if there are none.
 std::string notes_on(const SurfaceInput& a, const SurfaceInput& b) {
   std::vector<std::string> notes = notes_on_looks(a, b);
-  if (auto units = note_on_units(a, b); !units.empty()) notes.push_back(std::move(units));
-  return fmt::format("{}", fmt::join(notes, "; "));
+  notes.push_back(note_on_units(a, b));
+  return joined(std::move(notes));
 }
 
 json one_way(const OneWayDistance& d) {
@@ -119,6 +126,9 @@ Expected<void> add_map(Product& product, const TriangleMesh& a, const SurfaceInp
       write_mesh(map->mesh, target.format, {.unit = b.unit, .about = {.title = "Distance map"}});
   if (!file) return tl::unexpected(file.error());
   product.file = *std::move(file);
+  const std::string note = joined(
+      {note_on_unknown_unit(target.format, b.unit), note_on_precision(map->mesh, target.format)});
+  if (!note.empty()) product.report["note"] = note;
   product.report["map"] = {{"file", target.file}, {"range", map->range}};
   return {};
 }
@@ -232,7 +242,9 @@ Expected<Product> compare(const MeasuredFile& a, const MeasuredFile& b, const Re
   const std::string note = notes_on(*first, *second);
   convert(*first, second->unit);
   auto product = measure.compare(*std::move(first), *std::move(second));
-  if (product && !note.empty()) product->report["note"] = note;
+  if (!product) return product;
+  const std::string notes = joined({note, product->report.value("note", "")});
+  if (!notes.empty()) product->report["note"] = notes;
   return product;
 }
 
@@ -269,7 +281,7 @@ constexpr Flag kMeasureFlags[] = {
      "A lies outside B, blue where it lies inside; OUT is a mesh file, but not .stl"},
     {"--range", "D",
      "distance of the full colours of --map, in B's unit; default: the distance that 95 % of A's "
-     "vertices do not exceed"},
+     "vertices do not exceed, or the largest one if over 95 % lie on B"},
     kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 
@@ -278,10 +290,11 @@ constexpr Flag kMeasureFlags[] = {
 const Command kMeasure = {
     .name = "measure",
     .summary =
-        "Measures the distance between two surfaces in both directions, or how alike they look.",
+        "Measures the distance between two surfaces in both directions, or compares their "
+        "appearance.",
     .details =
-        "A and B are mesh files or .pmesh files, of which the finest level is measured. The result "
-        "is in B's unit.",
+        "A and B are mesh files, or .pmesh files, whose finest level is measured. The result is in "
+        "B's unit.",
     .operands = kMeasureOperands,
     .flags = kMeasureFlags,
     .examples =

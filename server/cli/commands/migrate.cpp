@@ -48,8 +48,9 @@ const Command kMigrate = {
     .name = "migrate",
     .summary = "Copies models, tokens and jobs to another data folder, or bucket and database.",
     .details =
-        "Stop the source's daemon before this ends: later changes are not copied, nor are uploads "
-        "and scan data. For a bucket or database, give a configuration file.",
+        "You may start while the source's daemon runs, but stop it before the command ends: "
+        "changes after the copy are lost. Uploads and scan data are not copied. For a bucket or "
+        "database, give a configuration file.",
     .flags = kMigrateFlags,
     .run = migrate_installation};
 

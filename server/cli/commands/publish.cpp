@@ -184,7 +184,9 @@ constexpr Flag kPublishFlags[] = {
 
 const Command kPublish = {
     .name = "publish",
-    .summary = "Publishes a mesh, a package with one (zip, tar or gzip) or a .pmesh file.",
+    .summary =
+        "Publishes a mesh, a package of a mesh and its pictures (zip, tar or gzip) or a .pmesh "
+        "file.",
     .details = "Give --data on the daemon's machine, or --server and --token anywhere else.",
     .operands = kPublishOperands,
     .flags = kPublishFlags,

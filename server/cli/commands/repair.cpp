@@ -84,8 +84,8 @@ const Command kRepair = {
     .name = "repair",
     .summary = "Puts damaged and missing files of models back from a backup or another copy.",
     .details =
-        "Checks every object by its SHA-256, also while a daemon serves the installation. "
-        "Exit code 1 if an object stays damaged.",
+        "Give either --backup or --from. Checks every object by its SHA-256; a daemon may serve "
+        "the installation meanwhile. Exit code 1 if an object stays damaged.",
     .flags = kRepairFlags,
     .run = repair_installation};
 

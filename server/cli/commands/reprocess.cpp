@@ -83,9 +83,9 @@ const Command kReprocess = {
     .name = "reprocess",
     .summary = "Rebuilds the mesh of a stored scan.",
     .details =
-        "SCAN_FOLDER is the folder OUT.ply.scan that vitrine scan --keep-frames creates. Flags not "
-        "given keep the values used by the scan. --stripe and --calibration evaluate its pictures "
-        "again.",
+        "SCAN_FOLDER is the folder OUT.ply.scan that vitrine scan --keep-frames or --keep leaves. "
+        "Flags not given keep the values used by the scan. --stripe and --calibration need the "
+        "pictures of the scan (--keep-frames), because they evaluate them again.",
     .operands = kReprocessOperands,
     .flags = kReprocessFlags,
     .run = run_reprocess};

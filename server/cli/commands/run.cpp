@@ -47,7 +47,7 @@ std::string usage(const Command& command) {
   std::string text = fmt::format("{}\n\nusage: vitrine {}", command.summary, command.name);
   for (const std::string_view operand : command.operands)
     text += fmt::format(" {}", operand);
-  text += " [FLAGS]\n\n";
+  text += command.flags.empty() ? "\n\n" : " [FLAGS]\n\n";
   if (!command.details.empty()) text += wrapped(command.details, 0) + "\n\n";
   constexpr std::size_t kHelpColumn = 36;
   for (const Flag& flag : command.flags) {

@@ -133,10 +133,10 @@ constexpr Flag kScanFlags[] = {
     kLargestHoleFlag,
     {"--exposure", "US", "exposure time in microseconds (default: exposure_us in rig.json)"},
     {"--calibration", "N", "number of the calibration (default: the newest that fits the camera)"},
-    {"--keep-frames", "", "keep all pictures in the folder OUT.ply.scan, for vitrine reprocess"},
+    {"--keep-frames", "", "keep the folder OUT.ply.scan, with all pictures, for vitrine reprocess"},
     {"--keep", "",
-     "keep the folder OUT.ply.scan, without pictures, for vitrine fuse; give it with --resume, "
-     "too"},
+     "keep the folder OUT.ply.scan, without pictures, for vitrine fuse; repeat this flag with "
+     "--resume"},
     {"--resume", "", "continue the interrupted scan in the folder OUT.ply.scan"},
     kForceFlag,
     {"--json", "", "print the result as one JSON object"}};

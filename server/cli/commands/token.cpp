@@ -108,7 +108,7 @@ const Command kToken = {
     .summary = "Creates or revokes an access token of a server.",
     .details =
         "Give --data on the daemon's machine, or --server and --token anywhere "
-        "else. The new token is printed once and not stored.",
+        "else. The new token is printed once; it cannot be shown again.",
     .operands = kOperands,
     .flags = kTokenFlags,
     .examples = "vitrine token create --role operator --data /var/lib/vitrine --label Anna",

@@ -85,7 +85,9 @@ constexpr std::string_view kVerifyOperands[] = {"FILE.pmesh"};
 constexpr Flag kVerifyFlags[] = {{"--against", "IN",
                                   "mesh that the file was built from, to check that its finest "
                                   "level has the same surface and the same originals"},
-                                 {"--up", "y|z", "with --against: --up of the build (default y)"},
+                                 {"--up", "y|z",
+                                  "with --against: the value of --up with which the file was built "
+                                  "(default y)"},
                                  {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner in memory. The board turns a fluted column. The camera sees the laser's stripe on the
-// column through a known plane map. A function injects faults.
+// A simulated scanner, without devices. The board turns a fluted column. The camera sees the
+// laser's stripe on the column through a known plane map. A function injects faults.
 #pragma once
 
 #include <filesystem>

@@ -197,8 +197,9 @@ TEST(Surface, AtADepthDiscontinuityAGapStays) {
   }
 }
 
-// The depth changes by 1.7 mm from one row to the next, which exceeds 4 s_max ([WLL] eq. 5). But
-// the step is only 74 degrees oblique, and the default of `largest_angle` is 75 degrees.
+// The depth changes by 1.7 mm between two rows, more than 4 s_max = 1.68 mm, so [WLL] eq. 5 does
+// not join them. The angle between view and normal is 74 degrees, below the default `largest_angle`
+// of 75, so eq. 6 does.
 TEST(Surface, AGrazingStepIsNoDiscontinuity) {
   const auto step = [](double, double z) { return z > 4.75 ? 20 : 21.7; };
   const auto profiles = scan_of(step, {.profiles = 360, .rows = 20, .top = 9.5});

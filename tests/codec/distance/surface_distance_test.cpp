@@ -177,13 +177,37 @@ TEST(DistanceMap, IsRedOutsideBlueInsideAndGreyWhereBothAgree) {
   EXPECT_EQ(map->mesh.attributes.colours, (std::vector<Colour>{grey, {207, 131, 127}, red, blue}));
 }
 
+// Returns a torus, of which every `nth` vertex is moved far away.
+TriangleMesh torus_with_outliers(std::size_t nth) {
+  TriangleMesh mesh = torus(40, 20);
+  for (std::size_t v = 0; v < mesh.positions.size(); v += nth)
+    mesh.positions[v].y += 50;
+  return mesh;
+}
+
 TEST(DistanceMap, HasTheRangeOfNearlyAllVertices) {
-  TriangleMesh a = torus(40, 20);
-  const TriangleMesh b = a;
-  for (std::size_t v = 0; v < a.positions.size(); ++v)
-    a.positions[v].y += v % 50 == 0 ? 5 : 0;
-  EXPECT_LT(distance_map(a, b)->range, 1e-9);
+  TriangleMesh a = torus_with_outliers(50);
+  for (Vec3& p : a.positions)
+    p.y += 0.001;
+  const TriangleMesh b = torus(40, 20);
+  EXPECT_LT(distance_map(a, b)->range, 0.002);
   EXPECT_EQ(distance_map({}, b).error().message, measure({}, b).error().message);
+}
+
+TEST(DistanceMap, ShowsAChangeOfASmallPart) {
+  const TriangleMesh a = torus_with_outliers(50), b = torus(40, 20);
+  const auto map = distance_map(a, b);
+  EXPECT_GT(map->range, 10);
+  const Colour grey{224, 224, 220};
+  for (std::size_t v = 0; v < a.positions.size(); ++v)
+    EXPECT_EQ(map->mesh.attributes.colours[v] == grey, v % 50 != 0) << v;
+}
+
+TEST(DistanceMap, OfEqualSurfacesIsGrey) {
+  const TriangleMesh a = torus(40, 20);
+  const auto map = distance_map(a, a);
+  for (const Colour& colour : map->mesh.attributes.colours)
+    EXPECT_EQ(colour, (Colour{224, 224, 220}));
 }
 
 TEST(Measure, CopesWithFacesWithoutArea) {

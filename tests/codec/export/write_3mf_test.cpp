@@ -52,6 +52,13 @@ TEST(Write3mf, HasThePartsOfAPackage) {
   EXPECT_THAT(parts.at("3D/3dmodel.model"), Not(HasSubstr("colorgroup")));
 }
 
+TEST(Write3mf, LeavesOutFacesThatRepeatAVertex) {
+  TriangleMesh mesh = tetrahedron();
+  const auto faces = mesh.faces;
+  mesh.faces.insert(mesh.faces.begin(), {{1, 1, 2}, {1, 2, 2}, {2, 1, 2}});
+  EXPECT_EQ(read_mesh(bytes_of_3mf(mesh))->mesh.faces, faces);
+}
+
 TEST(Write3mf, SaysWhatItIsInItsMetadata) {
   const std::string model = model_of(tetrahedron(), {.unit = "mm",
                                                      .about = {.title = "Bust",

@@ -247,7 +247,8 @@ std::vector<Vec3> lines_of(const std::string& text, const std::string& keyword) 
   return out;
 }
 
-// Returns `count` rows of three floats of a binary file.
+// Reads `count` rows of three floats from a binary file. The first row is at `offset`; rows are
+// `stride` bytes apart.
 std::vector<Vec3> floats_at(std::span<const std::uint8_t> bytes, std::size_t offset,
                             std::size_t stride, std::size_t count) {
   std::vector<Vec3> out;

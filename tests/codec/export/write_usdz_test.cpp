@@ -144,6 +144,10 @@ TEST(WriteUsdz, TheSurfaceTakesTheChannelsOfItsPictures) {
               AllOf(HasSubstr("inputs:opacity.connect = </model/material/base_colour.outputs:a>"),
                     HasSubstr("float inputs:opacityThreshold = 0.25\n"),
                     HasSubstr("float inputs:roughness = 1\n")));
+  texturing.materials[0].base_colour_map.reset();
+  texturing.materials[0].base_colour = {1, 0.5, 0.25, 1};
+  EXPECT_THAT(package_of(mesh, texturing)["model.usda"],
+              HasSubstr("color3f inputs:diffuseColor = (1, 0.5, 0.25)\n"));
 }
 
 TEST(WriteUsdz, StatesItsUnitItsAxisAndWhatItIs) {

@@ -31,7 +31,10 @@ export class Installed {
     return folder;
   }
 
-  /** Puts the package and links to `others` into the folder's node_modules. Returns the package's folder. */
+  /**
+   * Unpacks the package into the folder's node_modules and creates symbolic links there to the
+   * packages `others`. Returns the package's folder.
+   */
   #unpack(folder, others) {
     const modules = join(folder, "node_modules"), unpacked = join(modules, "@vitrine/progressive-mesh");
     mkdirSync(unpacked, { recursive: true });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worker. It fetches, decodes and plans for all models of a page, so that the page stays
-// responsive.
+// The web worker. For all models of a page, it fetches data, decodes it and plans which data to
+// fetch next, so that the page stays responsive.
 import type { Assets } from "./assets.ts";
 import type { Piece } from "./change.ts";
 import { Decoder } from "./decoder.ts";

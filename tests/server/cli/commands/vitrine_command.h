@@ -35,7 +35,7 @@ class VitrineCommand : public testing::Test {
     std::ofstream(path(name), std::ios::binary) << contents;
     return path(name);
   }
-  // Creates an empty folder that may become an installation. Returns its path.
+  // Creates an empty folder, for example for --data. Returns its path.
   std::string empty_folder(const std::string& name) const {
     std::filesystem::create_directory(path(name));
     return path(name);
