@@ -67,7 +67,7 @@ test("a model that is dropped with its library and picture becomes one model wit
   await card.getByRole("heading", { name: "w\u00fcrfel.tar" }).waitFor();
   assert.equal(await card.getByLabel("Title").inputValue(), "w\u00fcrfel");
   await desk.press("Create the model", card);
-  await card.getByText("Done").waitFor({ timeout: 60_000 });
+  await card.getByText("Done", { exact: true }).waitFor({ timeout: 60_000 });
   const { models } = await (await asked("/models?drafts=true")).json();
   const { texture } = await (await asked(`/models/${models[0].id}/manifest`)).json();
   assert.deepEqual(models.map(({ title, faces }) => [title, faces]), [["w\u00fcrfel", 4]]);
@@ -84,7 +84,7 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await card.getByLabel("Creator").fill("Polyeuktos");
   await card.getByLabel("Unit").selectOption("mm");
   await desk.press("Create the model", card);
-  await card.getByText("Done").waitFor({ timeout: 60_000 });
+  await card.getByText("Done", { exact: true }).waitFor({ timeout: 60_000 });
   assert.deepEqual(await onDisplay(), [], "a draft is nobody's business");
   await card.getByRole("link", { name: "Open the model" }).click();
   await page.getByRole("heading", { level: 1, name: "Bust of Demosthenes" }).waitFor();
