@@ -145,7 +145,11 @@ TEST(Limits, WhoAsksTooOftenIsToldWhenToComeBackAndOthersAreServed) {
   EXPECT_EQ(answer.field("retry-after"), "1");
   EXPECT_EQ(client.get("/api/v1/openapi.json", from("192.0.2.7")).status, 200)
       << "it comes from memory";
-  EXPECT_EQ(client.get("/nothing", from("192.0.2.7")).status, 429);
+  // On a slow machine, the address may meanwhile have earned another request.
+  bool is_refused = false;
+  for (int i = 0; i < 10 && !is_refused; ++i)
+    is_refused = client.get("/nothing", from("192.0.2.7")).status == 429;
+  EXPECT_TRUE(is_refused);
   EXPECT_EQ(client.get("/api/v1/models/" + id, "X-Forwarded-For: 192.0.2.8\r\n").status, 200);
 }
 
