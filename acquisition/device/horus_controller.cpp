@@ -29,7 +29,7 @@ class HorusController final : public Controller {
 
  private:
   // Waits for a reply of the given kind and skips all other replies before it. Returns nullopt
-  // after `timeout`.
+  // after `deadline`.
   Expected<std::optional<horus::Reply>> await(ReplyKind kind,
                                               SerialPort::Clock::time_point deadline);
   Expected<std::optional<horus::Reply>> ask_modes();

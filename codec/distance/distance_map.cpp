@@ -16,7 +16,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kAlignSamples = 5'000;
-// Distances of equal surfaces, as a share of the diagonal: rounding of the arithmetic.
+// Distance that rounding can give to equal surfaces, as a share of the diagonal.
 constexpr double kNoise = 1e-9;
 // Colours at -range, 0 and range, as sRGB values.
 constexpr Vec3 kBelow{33, 72, 184}, kSame{224, 224, 220}, kAbove{190, 38, 34};

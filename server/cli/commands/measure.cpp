@@ -14,6 +14,7 @@
 #include "server/cli/support/companion_files.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/isolation.h"
+#include "server/cli/support/notes.h"
 #include "server/cli/support/output.h"
 #include "server/cli/support/reading.h"
 #include "server/cli/support/surface_file.h"
@@ -25,11 +26,7 @@ namespace {
 
 using nlohmann::json;
 
-// Joins the texts that are not empty into one note.
-std::string joined(std::vector<std::string> notes) {
-  std::erase(notes, "");
-  return fmt::format("{}", fmt::join(notes, "; "));
-}
+constexpr std::string_view kBetweenNotes = "; ";
 
 // Returns a note if the units of the surfaces make the numbers doubtful. Otherwise returns an empty
 // text.
@@ -57,7 +54,7 @@ std::vector<std::string> notes_on_looks(const SurfaceInput& a, const SurfaceInpu
 std::string notes_on(const SurfaceInput& a, const SurfaceInput& b) {
   std::vector<std::string> notes = notes_on_looks(a, b);
   notes.push_back(note_on_units(a, b));
-  return joined(std::move(notes));
+  return join_notes(std::move(notes), kBetweenNotes);
 }
 
 json one_way(const OneWayDistance& d) {
@@ -126,8 +123,9 @@ Expected<void> add_map(Product& product, const TriangleMesh& a, const SurfaceInp
       write_mesh(map->mesh, target.format, {.unit = b.unit, .about = {.title = "Distance map"}});
   if (!file) return tl::unexpected(file.error());
   product.file = *std::move(file);
-  const std::string note = joined(
-      {note_on_unknown_unit(target.format, b.unit), note_on_precision(map->mesh, target.format)});
+  const std::string note = join_notes(
+      {note_on_unknown_unit(target.format, b.unit), note_on_precision(map->mesh, target.format)},
+      kBetweenNotes);
   if (!note.empty()) product.report["note"] = note;
   product.report["map"] = {{"file", target.file}, {"range", map->range}};
   return {};
@@ -243,7 +241,7 @@ Expected<Product> compare(const MeasuredFile& a, const MeasuredFile& b, const Re
   convert(*first, second->unit);
   auto product = measure.compare(*std::move(first), *std::move(second));
   if (!product) return product;
-  const std::string notes = joined({note, product->report.value("note", "")});
+  const std::string notes = join_notes({note, product->report.value("note", "")}, kBetweenNotes);
   if (!notes.empty()) product->report["note"] = notes;
   return product;
 }

@@ -10,6 +10,7 @@
 #include "codec/build/refine.h"
 #include "codec/export/zip.h"
 #include "codec/files/atomic_file.h"
+#include "server/cli/support/notes.h"
 #include "server/cli/support/output.h"
 
 namespace vitrine::server::cli {
@@ -46,15 +47,6 @@ ExportOptions options_for(const Refiner& refiner, MeshFormat format, const Expor
   FileDescription about{.level = detail.level, .error = detail.error};
   return export_options(choices, format, refiner.manifest().unit, std::move(about),
                         {detail.grid_origin, detail.grid_step});
-}
-
-// Returns the notes, each on a line.
-std::string join_notes(std::initializer_list<std::string> notes) {
-  std::string all;
-  for (const std::string& note : notes) {
-    if (!note.empty()) all += (all.empty() ? "" : "\n") + note;
-  }
-  return all;
 }
 
 }  // namespace
@@ -104,7 +96,8 @@ Expected<Product> exported_mesh(const Refiner& refiner, std::span<const std::uin
                   .file = {}};
   const std::string note = join_notes(
       {note_on_unknown_unit(kind.format, manifest.unit), note_on_precision(mesh, kind.format),
-       pictures.empty() ? std::string() : note_on_pictures(manifest, kind.format)});
+       pictures.empty() ? std::string() : note_on_pictures(manifest, kind.format)},
+      "\n");
   if (!note.empty()) product.report["note"] = note;
   if (kind.is_zip) {
     auto packed = zip(*files);

@@ -47,6 +47,11 @@ std::string horus_answer(const std::string& command) {
   return command == "?" ? "<Idle,MPos:0.000>\n" : "ok\n";
 }
 
+std::string horus_greeting(const std::string& command) {
+  if (command == "\n$G\n") return "[G0 F1.000]\nok\n";
+  return command == "\x18" ? "Horus 0.2 ['$' for help]\n" : "ok\n";
+}
+
 std::string fabscan_answer(const std::string& command) {
   return command + ">\n";
 }
@@ -67,6 +72,18 @@ TEST(SuspendedProcess, DoesNotMoveAHorusTableAfterItHasSwitchedTheMotorOn) {
   const auto board = make_horus(port, kAnswerTime);
   EXPECT_THAT(board->turn_to(90).error().message, HasSubstr("does not answer 'M17' in time"));
   EXPECT_THAT(port.sent, ElementsAre("?", "M17\n"));
+}
+
+TEST(SuspendedProcess, DoesNotUnlockAHorusBoardAfterItHasRestartedIt) {
+  SuspendedPort port;
+  port.answers = horus_greeting;
+  const auto board = make_horus(port, kAnswerTime);
+  EXPECT_EQ(board->greet().value_or("no answer"), "Horus 0.2");
+  port.fatal = "\x18";
+  port.sent.clear();
+  EXPECT_THAT(board->greet().error().message,
+              HasSubstr("USB board does not answer; check its power"));
+  EXPECT_THAT(port.sent, ElementsAre("\n$G\n", "\x18"));
 }
 
 TEST(SuspendedProcess, DoesNotMoveAFabScanTableAfterItHasSwitchedTheMotorOn) {

@@ -91,8 +91,8 @@ std::vector<std::string> exports_of(const std::string& model) {
   return paths;
 }
 
-// Returns the part of an export that tells the model's shape or look. In USDZ, that is the list of
-// positions: the lists of indices have commas, as a manifest may have.
+// Returns the part of an export that tells the model's shape or look. For USDZ, returns only the
+// list of positions, because the lists of indices look like lists in a manifest.
 std::string_view telling_part(std::string_view path, std::string_view body) {
   if (!path.ends_with(".usdz")) return body;
   const std::size_t begin = body.find("point3f[] points"), end = body.find(']', begin + 16);
