@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The codec's public interface. It builds, opens, refines and exports progressive meshes.
 //
-//   read_mesh    reads bytes of a PLY, OBJ, STL, OFF, 3MF, GLB or glTF file, or a zip, tar or gzip
-//                of a package with one; returns an ImportedMesh
+//   read_mesh    takes bytes of a mesh file (the formats: codec/import/formats.h), or of a zip, tar
+//                or gzip package with one; returns an ImportedMesh
 //   build_model  takes bytes of a mesh file, or an ImportedMesh; returns a `.pmesh` and a report
 //   open_model   takes bytes of a `.pmesh`, or a prefix of them; returns a Refiner at the base mesh
-//   refine       refines a Refiner to a given Want: triangles, bytes, error, level, view
-//   Planner      chooses the next chunk to fetch, if chunks arrive one by one (Refiner::apply)
-//   write_mesh   takes a TriangleMesh; returns bytes of a PLY, GLB, OBJ, STL, DRC, VRML, 3MF or
-//   USDZ
-//                file (write_textured_mesh: also takes a Texturing; returns the file and its
-//                pictures)
+//   refine       refines a Refiner until it meets a Want: triangles, bytes, error, level or view
+//   Planner      chooses the next chunk to fetch, for clients that receive chunks one by one
+//                (Refiner::apply)
+//   write_mesh   takes a TriangleMesh; returns bytes of a mesh file (the formats: MeshFormat);
+//                write_textured_mesh also takes a Texturing, and returns the file and its pictures
 //
 // verify_model proves that a `.pmesh` is intact and, if the original is given, that it is lossless.
 // compare_appearance measures how alike two meshes look: PSNR and SSIM of pictures from twelve
@@ -21,8 +20,9 @@
 // return Expected<T>. The message of its Error is one line: the fault, its place, the next step.
 //
 // Refiner, Planner, open_model and parse_header are safe on any bytes. The functions that read,
-// build and verify call third-party decoders (Draco, PNG, JPEG, WebP, libarchive), which are not
-// safe on hostile bytes. Call them in a process without rights if the bytes are untrusted.
+// build and verify call third-party decoders (Draco, Assimp, libarchive and picture decoders),
+// which are not safe on hostile bytes. If the bytes are untrusted, call these functions in a
+// process without privileges.
 //
 // There is no global state. Different objects may be used from different threads at the same time,
 // but each object from only one thread at a time. build_model starts BuildOptions::threads threads;

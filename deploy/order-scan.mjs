@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests a public scan of the object on a scanner's table, and writes the scan's ID to the file
-// KNOWN. Keeps the scan that KNOWN already names, unless that scan failed or was cancelled. Usage:
-// node order-scan.mjs VITRINE DATA URL SCANNER STEPS TITLE KNOWN
+// Requests a public scan of the object on a scanner's table, and writes the scan's ID to the file KNOWN. Does nothing
+// if KNOWN already names a scan that has neither failed nor been cancelled. Usage: node order-scan.mjs VITRINE DATA URL
+// SCANNER STEPS TITLE KNOWN
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 
 const [vitrine, data, url, scanner, steps, title, known] = process.argv.slice(2);
-if (!known) throw new Error("usage: order-scan.mjs VITRINE DATA URL SCANNER STEPS TITLE KNOWN");
+if (!known) throw new Error("Usage: order-scan.mjs VITRINE DATA URL SCANNER STEPS TITLE KNOWN");
 
 async function isThere() {
   if (!existsSync(known)) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds dist/ from src/: node build.mjs progressive-mesh.wasm
-// dist/ has the files that the daemon serves, dist/package those of the npm package.
+// dist/ gets the files that the daemon serves, and dist/package gets the files of the npm package.
 import { build } from "esbuild";
 import { copyFile, mkdir, rm } from "node:fs/promises";
 import { dirname, join } from "node:path";

@@ -13,11 +13,13 @@ using Columns = std::array<Vec3, 3>;  // a 3 x 3 matrix, as its three columns
 // Four pixels around the middle (u, v) of the mapped area, and their positions in the laser plane.
 struct Quadrangle {
   double u = 0, v = 0, half_u = 0, half_v = 0;
-  std::array<PlanePoint, 4> at;  // positions of the pixels (-,-), (+,-), (+,+), (-,+)
+  // Positions of the pixels (u - half_u, v - half_v), (u + half_u, v - half_v),
+  // (u + half_u, v + half_v) and (u - half_u, v + half_v), in this order.
+  std::array<PlanePoint, 4> at;
 };
 
-// Returns the largest of four sizes of quadrangles whose corners the map covers. Returns nullopt if
-// it covers none of them.
+// Tries quadrangles of four sizes. Returns the largest quadrangle whose corners the map covers, or
+// nullopt if it covers none of them.
 std::optional<Quadrangle> quadrangle_of(const PlaneMap& map) {
   double low_u = 1e9, high_u = -1e9, low_v = 1e9, high_v = -1e9;
   const auto hull = map.hull();
@@ -92,7 +94,7 @@ std::optional<TablePoint> camera_place(const Calibration& calibration) {
   const Vec3 x = scaled(p) * (front / size), y = scaled(q) * (front / size),
              shift = scaled(origin) * (front / size);
   TurntableAxis axis = calibration.axis;
-  // moves the axis, because about() takes points of the laser plane
+  // Moves the axis instead of the point, because about() takes only points of the laser plane.
   axis.offset += dot(cross(x, y), shift);
   return about(axis, {-dot(x, shift), -dot(y, shift)});
 }

@@ -56,7 +56,7 @@ void normalise(PointFeature& feature) {
 using Block = std::array<std::array<float, kBlock>, kFeatureSize>;
 
 // Divides the features into blocks. Fills the last block with dummy features that are far from all
-// others.
+// real features.
 std::vector<Block> blocks_of(std::span<const PointFeature> features) {
   std::vector<Block> blocks((features.size() + kBlock - 1) / kBlock);
   for (std::size_t i = 0; i < blocks.size() * kBlock; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Searches for motions that may align one scan with another, from feature matches most of which are
-// wrong.
+// Searches for motions that may align one scan with another. Uses feature matches, most of which
+// may be wrong.
 #pragma once
 
 #include <span>

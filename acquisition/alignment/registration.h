@@ -33,13 +33,13 @@ class FixedSurface {
   std::vector<bool> rim_;
 };
 
-// Returns the rms distance of the points from the tangent planes, in mm, or 0 if there are no
-// pairs.
+// Returns the rms distance of the points from the tangent planes at their counterparts, in mm, or 0
+// if `pairs` is empty.
 double rms_of(std::span<const Counterpart> pairs);
 
-// Returns the motion that moves the points onto the surface. Starts at `motion`, and takes `steps`
-// steps with each of the limits `reaches` on the distance of a pair, in mm. Stops early if there
-// are fewer than 12 pairs.
+// Returns the motion that moves the points onto the surface. Starts at `motion`. For each limit in
+// `reaches`, takes `steps` steps that use only counterparts() closer than the limit, in mm. Stops
+// early if fewer than 12 points have a counterpart.
 RigidMotion register_points(const SurfacePoints& points, const FixedSurface& surface,
                             RigidMotion motion, std::span<const double> reaches, int steps);
 

@@ -44,7 +44,8 @@ class PreparedScan {
   std::vector<SightLine> lines_;
 };
 
-// Returns a spacing at which the largest of the scans has about 6,000 points with features.
+// Returns a distance between points with features, in mm. At this distance, the largest scan has
+// about 6,000 such points.
 double spacing_for(std::span<const PoseScan> scans);
 
 // Returns the share of a scan's sight lines that the surface of another scan crosses more than 1.5
@@ -55,10 +56,10 @@ double crossed_share(std::span<const SightLine> lines, const FixedSurface& surfa
 
 struct PairFit {
   RigidMotion motion;  // motion of the first scan onto the second scan
-  // Share of the vertices of one scan that lie on the surface of the other scan. This is the larger
-  // of the two shares.
+  // Share of the vertices of one scan that lie on the surface of the other scan. Each of the two
+  // scans has such a share; this is the larger one.
   double overlap = 0;
-  double rms = 0;      // rms distance of these vertices from the other surface, in mm
+  double rms = 0;      // rms distance of the overlapping vertices from the other scan, in mm
   double crossed = 0;  // the larger value of crossed_share() for the two scans
 };
 

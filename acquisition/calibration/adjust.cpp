@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refines the calibration by the Levenberg-Marquardt method, over all pictures at once. The
-// residuals of a picture depend only on the camera, the axis, and the placement and slip of that
-// picture. (The slip is the error of the table's angle.) The normal equations are therefore summed
-// picture by picture.
+// residuals of a picture depend only on the camera, the axis, and that picture's placement and slip
+// (the error of the table's angle). The normal equations are therefore summed picture by picture.
 #include <algorithm>
 #include <array>
 #include <cmath>

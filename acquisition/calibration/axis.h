@@ -20,8 +20,8 @@ struct TurntableAxis {
 };
 
 // A point in the axis's frame. z runs upwards along the axis and is 0 at y = 0. rho lies in the
-// laser plane, perpendicular to the axis. A negative rho stands for -rho at theta + 180 degrees, as
-// in [WLL] eq. 1. (rho, lateral, z) is a right-handed orthogonal frame.
+// laser plane, perpendicular to the axis. A negative rho means -rho at theta + 180 degrees, as in
+// [WLL] eq. 1. (rho, lateral, z) is a right-handed orthogonal frame.
 struct TablePoint {
   double rho = 0, lateral = 0, z = 0;  // all in mm
 };

@@ -132,7 +132,7 @@ Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint>
 }
 
 // Fits a map to known coordinates in the laser plane, without the left-out poses. Returns the
-// residuals of the left-out poses. Fits no light plane, so dw is 0.
+// residuals of the left-out poses. Their dw is 0, because no light plane is fitted.
 Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const Correspondence> points,
                                                      const SensorRegion& region,
                                                      const std::vector<bool>& left_out,
@@ -169,8 +169,8 @@ Coverage coverage_of(const PlaneMap& map, std::span<const Correspondence> points
           .y_high = y_high};
 }
 
-// Returns the calibration with its report. Adds the condition number of the fit to all points for
-// each degree.
+// Returns the calibration with its report. For each degree, adds to the report the condition number
+// of the fit to all points.
 Expected<Calibrated> assemble(CrossValidation validation, std::span<const Correspondence> points,
                               const std::string& camera, const SensorRegion& region) {
   Calibrated result;

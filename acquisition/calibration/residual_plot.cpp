@@ -11,7 +11,7 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kMostArrows = 1500;
-// Length, in pixels, of the arrow that stands for the 95th percentile of the residuals.
+// Length, in pixels, of an arrow for a residual at the 95th percentile.
 constexpr double kArrow = 40;
 constexpr int kHueStep = 137;  // hues of consecutive poses differ by this many degrees
 

@@ -103,8 +103,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Estimates the axis's direction from the rotation of each pair. Uses the median, so that a few
-// wrong pairs have no effect.
+// Estimates the direction of the table's axis. Each pair of poses of the target, at two angles of
+// the table, gives one estimate. Takes the median, which a few wrong pairs do not affect.
 cv::Vec3d direction_of(std::span<const Turned> turns) {
   cv::Vec3d direction;
   for (int c = 0; c < 3; ++c) {
@@ -118,8 +118,8 @@ cv::Vec3d direction_of(std::span<const Turned> turns) {
   return cv::normalize(direction);
 }
 
-// Returns the point of the axis that is level with the target. All rotations leave this point in
-// place.
+// Returns the point of the table's axis that is level with the target. Rotations of the table do
+// not move this point.
 cv::Vec3d fixed_point(std::span<const Turned> turns, const cv::Vec3d& direction) {
   const int rows = 3 * static_cast<int>(turns.size());
   cv::Mat_<double> a(rows + 1, 3), b(rows + 1, 1), point;

@@ -26,7 +26,7 @@ struct CameraFrameAxis {
 
 struct SeenTarget {
   int placement = 0;  // index of the placement, from 0, without gaps
-  double angle = 0;   // radians: angle of the table
+  double angle = 0;   // the table's angle, in radians
   std::vector<cv::Point3d> on_board;
   std::vector<cv::Point2d> in_image;
 };
@@ -35,7 +35,7 @@ struct CalibrationScene {
   CameraModel camera;
   CameraFrameAxis axis;
   std::vector<cv::Affine3d>
-      placements;  // transforms from the target to the camera's frame, with the table at 0
+      placements;  // transforms from target to camera frame, with the table at 0 degrees
   // For each picture, the table's true angle minus the reported one, in radians.
   std::vector<double> slips;
 

@@ -15,7 +15,8 @@ namespace vitrine::acquisition {
 namespace {
 
 // Aravis repeats a request that the camera does not answer within 500 ms. The camera may then
-// execute both copies. If a call takes longer than this, the request may have been sent twice.
+// execute both copies. If a call takes longer than kAskedAgain, the request may have been sent
+// twice.
 constexpr std::chrono::milliseconds kAskedAgain{450};
 constexpr int kBuffers = 4;
 // Packet size in bytes on the loopback interface, where the path's MTU cannot be probed.
@@ -258,9 +259,9 @@ std::optional<Frame> AravisCamera::frame_in(ArvBuffer& buffer) {
   return Frame{.width = region_.width, .height = region_.height, .pixels = {bytes, bytes + pixels}};
 }
 
-// Restarts the stream. Otherwise a late frame of an earlier trigger could be mistaken for the frame
-// of the next trigger. Restarting also discards a trigger that the camera has stored and would
-// execute when it starts.
+// Restarts the stream, so that a late frame of an earlier trigger is not mistaken for the frame of
+// the next trigger. Restarting also discards a trigger that the camera has stored and would execute
+// when it starts.
 Expected<void> AravisCamera::start_afresh() {
   if (auto stopped = stop(); !stopped) return stopped;
   if (auto started = run(); !started) return started;
@@ -300,7 +301,7 @@ Expected<std::optional<Frame>> AravisCamera::shoot() {
 Expected<Frame> AravisCamera::capture() {
   for (int i = 0; i < kFrameTries && !is_lost_ && is_running_; ++i) {
     auto frame = shoot();
-    if (!frame) return tl::unexpected(std::move(frame).error());
+    if (!frame) return tl::unexpected(frame.error());
     if (*frame) return std::move(**frame);
   }
   if (is_lost_ || !is_running_)

@@ -50,7 +50,7 @@ const char* name_of(BoardDialect dialect) {
 Expected<OpenedController> open_controller(const BoardSelector& selector,
                                            std::chrono::milliseconds timeout) {
   auto port = open_usb_serial(selector, baud_of(selector.dialect));
-  if (!port) return tl::unexpected(std::move(port).error());
+  if (!port) return tl::unexpected(port.error());
   OpenedController opened{.port = std::move(*port), .controller = nullptr};
   opened.controller = selector.dialect == BoardDialect::kHorus
                           ? make_horus(*opened.port, timeout)

@@ -42,7 +42,7 @@ class HorusController final : public Controller {
   Unexpected refused(std::string_view line, const horus::Reply& reply) const;
 
   Conversation talk_;
-  std::string name_, heard_;  // heard_: the last received line that no Horus board would send
+  std::string name_, heard_;  // heard_: the last line that is not a valid Horus reply
   milliseconds timeout_;
   bool is_counted_ = false;  // whether the board's counter is valid
   bool is_motor_on_ = false;

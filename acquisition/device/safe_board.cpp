@@ -75,7 +75,7 @@ Expected<void> SafeBoard::start() {
     // Nothing is switched on yet. A guardian that kept running would disturb the next attempt to
     // open the board.
     guardian_.dismiss();
-    return tl::unexpected(std::move(firmware).error());
+    return tl::unexpected(firmware.error());
   }
   identity_.firmware = *firmware;
   if (auto off = controller_->switch_off(); !off) {
@@ -214,8 +214,8 @@ SafeBoard::~SafeBoard() {
     watchdog_.join();
     if (!is_stopped_ && !failure_) switch_off();
   }
-  // Dismisses the guardian only if the board has confirmed that it is off. Otherwise the guardian
-  // switches the board off.
+  // Dismisses the guardian only if the board has confirmed that it is off. A guardian that is not
+  // dismissed switches the board off.
   if (is_off_ && !is_stopped_) guardian_.dismiss();
 }
 

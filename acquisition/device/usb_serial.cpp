@@ -252,9 +252,9 @@ UsbSerial::~UsbSerial() {
 
 Expected<std::unique_ptr<SerialPort>> open_usb_serial(const BoardSelector& selector, int baud) {
   auto context = open_usb();
-  if (!context) return tl::unexpected(std::move(context).error());
+  if (!context) return tl::unexpected(context.error());
   auto device = open_usb_device(context->get(), selector);
-  if (!device) return tl::unexpected(std::move(device).error());
+  if (!device) return tl::unexpected(device.error());
   const auto line = find_serial_line(libusb_get_device(device->handle.get()), selector);
   if (!line) return tl::unexpected(line.error());
   auto port = std::make_unique<UsbSerial>(usb_name(selector), std::move(*context),

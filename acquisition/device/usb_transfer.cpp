@@ -29,8 +29,8 @@ class Outgoing {
   bool is_complete_ = false;
 };
 
-// Notifies while holding the mutex. Otherwise the waiting thread could lock the mutex first and
-// destroy this object.
+// Notifies while holding the mutex. If it unlocked the mutex first, the waiting thread could
+// destroy this object before the notification.
 void LIBUSB_CALL Outgoing::on_complete(libusb_transfer* transfer) {
   auto* self = static_cast<Outgoing*>(transfer->user_data);
   const std::lock_guard lock(self->mutex_);

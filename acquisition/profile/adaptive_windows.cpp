@@ -96,7 +96,7 @@ class Windows {
   // Each window is stored at the index of its first point. A window that was merged into another
   // has count 0.
   std::vector<Window> windows_;
-  std::vector<std::size_t> before_;  // first point of the preceding window
+  std::vector<std::size_t> before_;  // index of the preceding window's first point
   std::priority_queue<Join, std::vector<Join>, std::greater<>> joins_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Divides a profile into windows of points, which are short where the profile bends.
+// Divides a profile into windows of consecutive points. Windows are short where the profile bends.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct WindowLimits {
   // Windows are merged until at most this many are left.
   std::size_t windows = 1;
   std::size_t longest = 1;  // largest number of points in a window
-  double noise = 0;         // standard deviation of the points, in mm
+  double noise = 0;         // standard deviation of the points' noise, in mm
 };
 
 // Returns the windows in ascending order, without gaps or overlaps. A point that is flagged kApart

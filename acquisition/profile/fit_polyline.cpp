@@ -28,7 +28,7 @@ struct EquationRow {
   // The diagonal element. Its start value acts like two points at the corner, so that a corner with
   // few real points stays in place.
   double own = 2;
-  double next = 0;  // the off-diagonal element for the next corner
+  double next = 0;  // matrix element that couples this corner to the next corner
   double right = 0;
 };
 

@@ -17,16 +17,16 @@ struct StripeCount {
   // `rows` counts the rows whose stripe continues in the row before or after.
   std::uint64_t frames = 0, rows = 0;
   std::uint64_t saturated = 0, doubled = 0;
-  // `pixels` counts the pixels of all pictures, with and without laser. `full` counts those at the
-  // end of the camera's range.
+  // `pixels` counts the pixels of all pictures, with and without laser. `full` counts the pixels at
+  // the end of the camera's range.
   std::uint64_t pixels = 0, full = 0;
 
   bool operator==(const StripeCount&) const = default;
 };
 
 StripeCount count(std::span<const StripePoint> stripe);
-// Counts the pixels of a picture, and those at the end of the camera's range. A picture that is
-// saturated even without laser cannot show the stripe.
+// Counts all pixels of a picture, and the pixels at the end of the camera's range. A picture that
+// is saturated even without laser cannot show the stripe.
 StripeCount count_full(const Frame& picture);
 StripeCount operator+(const StripeCount& a, const StripeCount& b);
 StripeCount sum(std::span<const StripeCount> counts);

@@ -30,13 +30,14 @@ struct SamplingOptions {
 //
 // kAdaptive concentrates points on detail. Over all profiles it keeps at most as many points as
 // kEquidistant plus the ends of the profiles' parts. Each kept point represents a window of up to 2
-// L neighbours. Starting from single points, the algorithm merges the two neighbouring windows, of
-// any profile, whose points deviate least from their common line in (rho, z). A deviation within
-// `noise` counts as zero, and if several are equal, the shortest merge comes first. The kept points
-// start as the means of the windows. At the end of a part (PointFlag kApart), a point lies instead
-// on its window's line at the outermost position, so that parts do not shrink. Finally the points
-// move so that the polyline through them fits all original points best (fit_polyline.h). Profiles
-// with more than 2,000,000 points in total are processed in blocks. Takes O(n log n) time.
+// L neighbours. The algorithm starts with windows of one point. It repeatedly merges two
+// neighbouring windows of one profile: those whose points deviate least from their common line in
+// (rho, z). A deviation within `noise` counts as zero. Among equal deviations, the merge with the
+// fewest points comes first. The kept points start as the means of the windows. At the end of a
+// part (PointFlag kApart), a point lies instead on its window's line at the outermost position, so
+// that parts do not shrink. Finally the points move so that the polyline through them fits all
+// original points best (fit_polyline.h). Profiles with more than 2,000,000 points in total are
+// processed in blocks. Takes O(n log n) time.
 //
 // A kept point gets the row in the middle of its window, so rows stay ascending. The point is
 // flagged kFilled if all points of its window are flagged kFilled. It gets every other flag that

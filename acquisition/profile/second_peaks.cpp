@@ -8,12 +8,12 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr int kShortestLine = 5;  // in rows; shorter lines do not count
+constexpr int kShortestLine = 5;  // shortest line that counts, in rows
 constexpr int kMostSlant = 10;    // largest shift of a line between adjacent rows, in pixels
 // Largest strength in the dark gap between two surfaces, as a share of the weaker peak's strength.
 constexpr double kMostLit = .1;
 
-// For each of a row's two peaks, the length in rows of the line that ends there.
+// For each of a row's two peaks, the length in rows of the line that ends at this peak.
 using Lengths = std::array<int, 2>;
 
 // Returns whether the two peaks of a row come from two surfaces, with a dark gap between them. A

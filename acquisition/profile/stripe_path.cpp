@@ -14,7 +14,7 @@ constexpr double kJumpCost = 6;
 // Shift in pixels from one row to the next that costs nothing, because a slanted stripe is not a
 // jump.
 constexpr double kFreePixels = 3;
-constexpr double kPixelsOfJump = 20;  // in pixels; longer jumps cost as much as this
+constexpr double kPixelsOfJump = 20;  // jumps of this many pixels or more have the full cost
 
 double weakness(const RowPeaks& row, int k) {
   return 1 - static_cast<double>(row.peaks[static_cast<std::size_t>(k)].strength) /

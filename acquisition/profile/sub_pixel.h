@@ -16,7 +16,7 @@ class SubPixel {
   explicit SubPixel(const StripeOptions& options);
 
   // Returns the stripe's centre in pixels. Returns nullopt if the filter finds no peak near `u` or
-  // the image's border is too close. Negative differences of the two rows are kept, because
+  // the image's border is too close. Negative differences of the two rows stay negative, because
   // clipping them at zero would shift the centre towards the brighter background.
   std::optional<double> centre(std::span<const std::uint8_t> lit,
                                std::span<const std::uint8_t> dark, int u) const;

@@ -9,9 +9,9 @@
 namespace vitrine::acquisition::rig {
 
 // Time that the cable stays unplugged. It is longer than the time during which a client repeats an
-// unanswered request (Aravis: 3 s). Otherwise the camera would come back and receive the repeated
-// trigger before a client controls it. The camera would keep that trigger until streaming starts,
-// and deliver each later frame one trigger late.
+// unanswered request (Aravis: 3 s). With a shorter time, the camera would come back and receive a
+// repeated trigger before a client controls it. The camera would keep that trigger until streaming
+// starts, and deliver each later frame one trigger late.
 inline constexpr std::chrono::milliseconds kUnplugged{5000};
 
 class Cable {

@@ -18,7 +18,7 @@ enum class FaultKind {
   kMissedTrigger,  // the first frame after motion `step` is not sent
   kDrift,          // after motion `step`, the laser shifts by kCreepMm with each motion
   kLaserOut,       // after motion `step`, the laser stays dark when switched on
-  kSecondStripe,   // after motion `step`, the scanner's other laser lights as well
+  kSecondStripe,   // after motion `step`, the scanner's other laser is on as well
 };
 
 struct RigFault {

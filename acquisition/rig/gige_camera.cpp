@@ -20,8 +20,8 @@ namespace {
 // complete.
 constexpr double kLostShare = 0.05;
 
-// Returns whether the GigE Vision port of the address is free. Otherwise Aravis would share the
-// port with another camera, and each would receive half of the packets.
+// Returns whether the GigE Vision port of the address is free. If another camera uses the port,
+// Aravis shares it, and each camera receives only half of the packets.
 bool is_free(const std::string& address) {
   sockaddr_in control{};
   control.sin_family = AF_INET;

@@ -13,7 +13,7 @@ namespace {
 
 // The text of --help. {} stands for the list of mesh formats.
 constexpr std::string_view kUsage =
-    R"(usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... [-- COMMAND [ARGUMENT]...]
+    R"(Usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... [-- COMMAND [ARGUMENT]...]
 
 Simulates a laser scanner: a GigE Vision camera on a loopback address and a motor board on a USB bus
 that only COMMAND sees. Runs COMMAND and exits with its exit code.
@@ -30,13 +30,19 @@ that only COMMAND sees. Runs COMMAND and exits with its exit code.
                        speed of the table (default: motions complete at once)
   --table FILE         file that keeps the table's angle for the next rig, so that a scan can be
                        resumed (default: each rig starts at 0 degrees)
-  --fault NAME[@STEP]  simulate the fault after motion STEP of the table (default: from the start;
-                       unplug, stall and missed-trigger: after motion 1); may be repeated:
-                       lost-packets, camera-unplug, usb-unplug, motor-stall, missed-trigger, drift,
-                       laser-out, second-stripe
+  --fault NAME[@STEP]  simulate a fault after motion STEP of the table; may be repeated. The default
+                       of STEP is in parentheses; 0 is the start:
+                         lost-packets    one picture in twenty lacks packets (0)
+                         camera-unplug   the camera is absent for 5 s (1)
+                         usb-unplug      the board is absent for 5 s (1)
+                         motor-stall     the table stands still until the board restarts (1)
+                         missed-trigger  the next picture is not sent (1)
+                         drift           the laser shifts by 2 micrometres with each motion (0)
+                         laser-out       the laser stays dark when it is switched on (0)
+                         second-stripe   the scanner's second laser is on as well (0)
   --stripe SHAPE       brightness across the line: gaussian, top-hat or skewed (default gaussian)
   --speckle CONTRAST   speckle contrast of the laser's light, 0.33 to 1 (default 0.33)
-  --matt               an object without paint patches and without gloss
+  --matt               no dark patches painted on the object, and no gloss
   --ideal              no noise, no speckle, no motor error: for comparing methods, not for stating
                        accuracy
   --address IP         address of the camera, on an interface of this machine (default 127.0.0.1);
@@ -49,9 +55,9 @@ that only COMMAND sees. Runs COMMAND and exits with its exit code.
   --write-commands FILE
                        write each command that the board receives to FILE, one per line, after the
                        time in milliseconds since 1970
-  --write-truth FILE   write the object to FILE as PLY, in mm in the table's frame at 0 degrees, with
-                       a flag `seen` for each vertex: visible to laser and camera; COMMAND is then
-                       optional
+  --write-truth FILE   write the object to FILE as PLY, in mm in the table's frame at 0 degrees,
+                       with a flag `seen` for each vertex: visible to laser and camera; COMMAND is
+                       then optional
   --help, --version    print this help or the version, and exit)";
 
 Unexpected wrong(std::string_view option, std::string_view value, std::string_view wanted) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds programs that have a simulated USB bus in their environment.
+// Waits for the programs whose environment names a simulated USB bus.
 #pragma once
 
 #include <chrono>

@@ -33,7 +33,7 @@ constexpr double kHold = 0.0015;
 // Interval in seconds at which FTDI chips send their status even if they have no data.
 constexpr double kFtdiIdle = 0.016;
 constexpr std::size_t kMostUnread = 4096;
-// How long the destructor waits for guardian processes. Guardians retry for a shorter time.
+// How long the destructor waits for guardian processes. They give up sooner than this.
 constexpr std::chrono::seconds kGuardians(15);
 
 constexpr char kPath[] = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-2";
@@ -247,8 +247,8 @@ Expected<void> UsbBoard::Impl::plug(const UsbBoardSettings& settings) {
       "E: BUSNUM=001\nE: DEVNUM=002\nE: MAJOR=189\nE: MINOR=1\nA: busnum=1\\n\nA: devnum=2\\n\n"
       "A: bConfigurationValue=1\\n\nA: speed=12\\n\nH: descriptors={}\n",
       kPath + 4, kNode, hex);
-  // Installs the call handlers before the device appears. Otherwise a program could open the device
-  // before the handlers exist, and would fail.
+  // Installs the call handlers before the device appears, because a program that opens the device
+  // before the handlers exist would fail.
   GError* error = nullptr;
   if (umockdev_testbed_attach_ioctl(testbed_.get(), kNode, calls_.get(), &error) &&
       umockdev_testbed_add_from_string(testbed_.get(), description.c_str(), &error))

@@ -29,7 +29,7 @@ struct Setup {
   std::uint8_t type = 0, request = 0;
   std::uint16_t value = 0, index = 0, length = 0;
 };
-Setup setup_from(std::span<const std::uint8_t> bytes);  // `bytes`: at least 8
+Setup setup_from(std::span<const std::uint8_t> bytes);  // `bytes` must have at least 8 bytes
 
 // Returns the state of DTR that a request sets, or nullopt if the request does not set DTR.
 std::optional<bool> dtr_in(UsbTransport transport, const Setup& setup);

@@ -45,7 +45,7 @@ class PixelRays {
 };
 
 // Returns the ambient light on the subject. Computes the light of every ambient_step()-th pixel
-// (subject.h), and interpolates the pixels between linearly.
+// (subject.h), and interpolates linearly between these pixels.
 std::vector<float> ambient_light(const LocalOptics& optics, const PixelRays& rays,
                                  const Subject& subject);
 

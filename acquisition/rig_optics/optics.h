@@ -33,7 +33,8 @@ struct Optics {
 
 // Returns the optics of a simulated scanner. Each seed gives another geometry, so a calibration
 // fits only one seed. Each scanner has a 16 mm lens, pixels of 5.3 um and at most 30 degrees
-// between laser sheet and camera. It shows an object of 80 mm height and 45 mm radius completely.
+// between laser sheet and camera. Its camera sees all of an object of 80 mm height and 45 mm
+// radius.
 Optics optics_of(std::uint64_t seed);
 
 // Returns the second laser. As in many scanners, it is on the camera's other side at the same

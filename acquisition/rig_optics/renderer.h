@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renders pictures of the stage.
+// Renders the pictures that the simulated camera takes of the scene (stage.h).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the pixels that may show laser light, so that rays are cast only there.
+// Finds the pixels that may show laser light, so that rays are cast only for these pixels.
 #pragma once
 
 #include <vector>

@@ -41,7 +41,7 @@ LiveScanner::LiveScanner(std::unique_ptr<Camera> camera, std::unique_ptr<Board> 
 }
 
 LiveScanner::~LiveScanner() {
-  if (!board_) return;  // the state of an object that was moved from
+  if (!board_) return;  // this object was moved from and has no devices
   // Ignores the error, because no caller is left to receive it. Closing the board switches laser
   // and motor off in any case.
   (void)board_->laser(false);

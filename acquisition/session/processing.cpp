@@ -15,8 +15,8 @@ Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibr
                                  const Processing& processing) {
   SurfaceOptions options = processing.surface;
   options.sampling = processing.sampling;
-  // Does not set the noise in options.sampling, because surface_of() smooths the points before it
-  // samples them.
+  // Only the smoothing needs the calibrated noise. options.sampling.noise is left at its default,
+  // because surface_of() smooths the points before it samples them.
   options.noise = calibration.noise;
   return surface_of(profiles, options);
 }

@@ -43,12 +43,12 @@ class ProfileJournal {
   // the record is on disk. After an error (kIo, such as a full disk), the file must be reopened.
   Expected<void> append(const Profile& profile, const StripeCount& stripe);
 
-  // Keeps the first `kept` profiles and discards the others, whose steps must be measured again.
+  // Keeps the first `kept` profiles and discards all later ones, whose steps are measured again.
   // `steps_done` is the number of steps done before this call. When the function returns, the
   // record is on disk.
   Expected<void> give_up(int kept, int steps_done);
 
-  // Records that the table stands at `step` or is moving there. (The motion completes even if this
+  // Records that the table stands at `step` or moves to it. (The motion completes even if this
   // process ends.) The record immediately survives the end of this process. It survives a power
   // failure only after the next profile is written.
   Expected<void> note_turn(int step);

@@ -61,7 +61,7 @@ Expected<void> measure_again(JournalContents& scan, const ScanFolder& folder,
 
 Expected<void> check_pictures(const ScanRequest& scan, int own, const ReprocessOptions& options) {
   const char* what = other_points(scan, own, options);
-  if (what == nullptr || scan.keep_frames) return {};
+  if (what == nullptr || scan.keeps_frames) return {};
   return fail(ErrorCode::kState, fmt::format("{} needs the pictures of the scan, which were not "
                                              "kept; scan again and keep the frames",
                                              what));

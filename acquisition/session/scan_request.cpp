@@ -102,7 +102,7 @@ std::string to_json_text(const ScanRecord& record) {
   object["created"] = record.created;
   object["scanner"] = record.scanner;
   object["steps"] = record.request.steps;
-  object["keep_frames"] = record.request.keep_frames;
+  object["keep_frames"] = record.request.keeps_frames;
   object["camera"] = record.camera;
   object["exposure_us"] = record.settings.exposure_us;
   object["gain_db"] = record.settings.gain_db;
@@ -122,7 +122,7 @@ Expected<ScanRecord> scan_record_of(std::string_view text, const std::string& pl
        "board", "calibration", "calibration_digest", "stripe", "sampling", "surface"});
   ScanRecord record;
   record.request.steps = members.whole("steps", kLeastSteps, kMostSteps, 0);
-  record.request.keep_frames = members.flag("keep_frames", false);
+  record.request.keeps_frames = members.flag("keep_frames", false);
   record.request.processing = {.stripe = stripe_in(members),
                                .sampling = sampling_in(members),
                                .surface = surface_in(members)};

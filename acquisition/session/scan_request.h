@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant"
 inline constexpr std::array<std::string_view, 3> kStripeNames = {"derivative-of-gaussian",
                                                                  "centre-of-mass", "blais-rioux"};
 
-inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // numbers of points
+inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // window lengths, in points
 
 struct ScanRequest {
   int steps = 720;                    // steps in one revolution, kLeastSteps to kMostSteps
@@ -31,7 +31,7 @@ struct ScanRequest {
   // Number of the calibration. 0: the newest for that camera and region.
   int calibration = 0;
   // Whether to keep the pictures, so that the stripe can be found again with other methods.
-  bool keep_frames = false;
+  bool keeps_frames = false;
   Processing processing;
 };
 

@@ -59,8 +59,8 @@ Expected<void> ScanRun::open_folder() {
   Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
     judged = stripe_watch_->add(stripes_[step], step + 1);
-  // The verdict is an error only if an earlier process crashed after it had stored the last step
-  // and before it had judged this step.
+  // This is an error only if an earlier process stored the last step and then crashed before it
+  // judged that step.
   if (!judged) return refuse(judged.error());
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
@@ -211,7 +211,7 @@ Expected<void> ScanRun::measure_and_store(int step, FramePair frames) {
   auto measured =
       measure_profile(frames, calibration_, request.processing.stripe, angle_of(request, step));
   if (!measured) return tl::unexpected(measured.error());
-  if (request.keep_frames) {
+  if (request.keeps_frames) {
     if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
   if (auto stored = journal_->append(measured->profile, measured->stripe); !stored) return stored;

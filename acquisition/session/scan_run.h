@@ -28,8 +28,8 @@ struct RetryLimits {
   // Number of attempts to start. The first attempt may fail because a killed process still holds a
   // device.
   int first_tries = 10;
-  // Number of attempts to turn a stalled table, in the whole run. A jam does not clear itself, and
-  // each attempt makes the table's angle less certain.
+  // Number of attempts to turn a stalled table without completing a step in between. A jam does not
+  // clear itself, and each attempt makes the table's angle less certain.
   int turns = 2;
   std::chrono::milliseconds between{500};
 };
@@ -80,8 +80,8 @@ class ScanRun {
   };
   using StepOutcome = tl::expected<void, Setback>;
 
-  // Numbers of failed attempts since the last completed step: all of them, and those to turn the
-  // table.
+  // Numbers of failed attempts since the last completed step: of all attempts, and of the attempts
+  // to turn the table.
   struct Tries {
     int all = 0, turns = 0;
   };
@@ -112,9 +112,10 @@ class ScanRun {
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
   std::optional<StripeWatch> stripe_watch_;
-  std::vector<StripeCount> stripes_;  // the counts that belong to profiles_
+  std::vector<StripeCount> stripes_;  // the stripe counts of profiles_
   StripeCount seen_;                  // sum of stripes_
-  // The result for step profiles_.size(). It belongs to the other thread until pending_ completes.
+  // The result for step profiles_.size(). Only the thread that computes it may use it until
+  // pending_ completes.
   Measured fresh_;
   std::future<Expected<void>> pending_;
   // The step to which the table was last turned. The journal records this step too.

@@ -11,7 +11,7 @@ Expected<void> StripeWatch::add(const StripeCount& stripe, int steps_done) {
   last_.push_back(stripe);
   if (last_.size() > most_) last_.erase(last_.begin());
   StripeCount seen = sum(last_);
-  // Ignores saturation, because one side of an object may be brighter than the others.
+  // Ignores saturation, because one side of an object may be brighter than its other sides.
   seen.saturated = 0;
   const bool is_lost = !shows_stripe(seen);
   if (!is_lost) is_lost_ = false;

@@ -20,9 +20,9 @@ class StripeWatch {
 
   // Adds the step with number `steps_done` and judges the last eighth of a revolution. Fails with
   // kBadInput if judge() refuses that eighth for a reason other than saturation. Reports each
-  // condition once, because resuming the scan accepts the condition. Reports a lost stripe again if
-  // the stripe was found in between. Reports other conditions again only after an eighth of a
-  // revolution without any, because an object may stay close to the limit.
+  // reason once, because an operator who resumes the scan accepts it. Reports a lost stripe again
+  // if the stripe was found in between. Reports other reasons again only after an eighth of a
+  // revolution without any of them, because an object may stay close to the limit.
   Expected<void> add(const StripeCount& stripe, int steps_done);
 
   // Returns the number of steps that are judged together.

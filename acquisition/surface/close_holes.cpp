@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/surface/close_holes.h"
+#include "acquisition/surface/steps.h"
 
 #include <algorithm>
 #include <span>
@@ -76,8 +76,8 @@ class Loop {
   Vec3 middle_;
 };
 
-// Returns the boundary loops. Leaves out vertices at which several loops meet, because the next
-// edge of the loop is ambiguous there.
+// Returns the boundary loops. Leaves out vertices at which several loops meet, because the edge
+// that follows such a vertex is ambiguous.
 std::vector<Loop> loops_of(const TriangleMesh& mesh) {
   const std::vector<BoundaryEdge> edges = boundary_of(mesh);
   const auto leaving = [&](std::uint32_t v) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of all strands, and the distances up to which points are neighbours.
+// The points of all strands of a scan, and the distances up to which points are neighbours. A
+// strand is a line of measured points with at most one point per image row (steps.h).
 #pragma once
 
 #include <cstdint>
@@ -49,7 +50,7 @@ struct Spacing {
   double near = 0;
   // Strands whose points are farther apart than this, in mm, are not joined.
   double bridge = 0;
-  double cos_largest = 0;  // cosine of phi_max
+  double cos_largest = 0;  // cosine of phi_max ([WLL] eq. 6)
 };
 
 Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/surface/fill_gaps.h"
+#include "acquisition/surface/steps.h"
 
 #include <cmath>
 
@@ -22,7 +22,7 @@ class Course {
   // Returns whether the surface continues from the point before `i` to point `i`. If the two rho
   // have different signs, the points lie on different sides of the object, and the surface does not
   // continue.
-  bool goes_on(std::size_t i) const {
+  bool continues(std::size_t i) const {
     const TablePoint &a = points_[i - 1].at, &b = points_[i].at;
     if (!same_side(a, b)) return false;
     return are_joined(std::abs(b.rho - a.rho), distance(a, b), spacing_) || is_steady(i, i - 1) ||
@@ -77,7 +77,7 @@ std::uint64_t fill_gaps(Profile& strand, double largest_hole, const Spacing& spa
     if (i > 0) {
       const ProfilePoint& last = strand.points[i - 1];
       const bool gap = point.row - last.row > spacing.gap;
-      if (!course.goes_on(i) || (gap && distance(last.at, point.at) > largest_hole))
+      if (!course.continues(i) || (gap && distance(last.at, point.at) > largest_hole))
         point.flags |= kApart;
       else if (gap)
         filled += fill(last, point, spacing.rows, points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/surface/second_views.h"
+#include "acquisition/surface/steps.h"
 
 #include <algorithm>
 #include <array>

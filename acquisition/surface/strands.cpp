@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/surface/strands.h"
+#include "acquisition/surface/steps.h"
 
 #include <cmath>
 

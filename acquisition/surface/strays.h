@@ -16,9 +16,10 @@ struct Strays {
 
 // Finds points that do not belong to the surface. Neighbours of a point lie closer to it than
 // `reach` (mm), in adjacent rows. They belong to its own strand or to the strands of the two steps
-// on either side. Points with fewer than three neighbours are outliers. Among the rest, connected
-// pieces with fewer than `smallest` points are isolated. Pieces extend over rows and steps alike,
-// so a thin edge that shows on a few rows of many profiles is one piece. Takes O(n) time.
+// on either side. Points with fewer than three neighbours are outliers. Among the other points,
+// connected pieces with fewer than `smallest` points are isolated. Pieces extend over rows and
+// steps alike, so a thin edge that shows on a few rows of many profiles is one piece. Takes O(n)
+// time.
 Strays find_strays(const Cloud& cloud, double reach, std::size_t smallest);
 
 }  // namespace vitrine::acquisition

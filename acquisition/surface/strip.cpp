@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/surface/strip.h"
+#include "acquisition/surface/steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Cost of advancing along a strand without a triangle, as a multiple of Spacing::bridge.
+// Cost of advancing by one point on one strand (line of measured points) without adding a triangle.
+// This leaves a gap between two strands. In multiples of Spacing::bridge.
 constexpr double kBreak = 10;
 
 struct Side {
@@ -22,21 +23,21 @@ struct Side {
   int rows;  // median number of rows between points (Spacing::rows)
 
   std::size_t size() const { return points.size(); }
-  bool goes_on(std::size_t i) const { return i + 1 < size() && !(points[i + 1].flags & kApart); }
+  bool continues(std::size_t i) const { return i + 1 < size() && !(points[i + 1].flags & kApart); }
   // Returns the number of rows that point i represents.
   int reach(std::size_t i) const {
     int reach = rows;
-    if (goes_on(i)) reach = std::max(reach, points[i + 1].row - points[i].row);
-    if (i > 0 && goes_on(i - 1)) reach = std::max(reach, points[i].row - points[i - 1].row);
+    if (continues(i)) reach = std::max(reach, points[i + 1].row - points[i].row);
+    if (i > 0 && continues(i - 1)) reach = std::max(reach, points[i].row - points[i - 1].row);
     return reach;
   }
-  // Returns the rho at `row`, interpolated if the strand continues there from point i. Otherwise
-  // returns the rho of point i.
+  // Returns the rho at `row`, interpolated between point i and the strand's next point towards
+  // `row`. Returns the rho of point i if the surface does not continue to that point.
   double depth_at(std::size_t i, int row) const {
     const ProfilePoint& at = points[i];
     std::size_t next = i;
-    if (row > at.row && goes_on(i)) next = i + 1;
-    if (row < at.row && i > 0 && goes_on(i - 1)) next = i - 1;
+    if (row > at.row && continues(i)) next = i + 1;
+    if (row < at.row && i > 0 && continues(i - 1)) next = i - 1;
     if (next == i) return at.at.rho;
     const double t = static_cast<double>(row - at.row) / (points[next].row - at.row);
     return at.at.rho + std::min(t, 1.) * (points[next].at.rho - at.at.rho);
@@ -121,18 +122,18 @@ class Strip {
         edges_[band_.cell(i, j)] = edge(i, j);
         Way& way = ways_[band_.cell(i, j)];
         if (i == 0 && j == 0) way.cost = 0;
-        if (i > 0 && band_.has(i - 1, j)) offer(i, j, true, a_.goes_on(i - 1), way);
-        if (j > band_.low(i)) offer(i, j, false, b_.goes_on(j - 1), way);
+        if (i > 0 && band_.has(i - 1, j)) offer(i, j, true, a_.continues(i - 1), way);
+        if (j > band_.low(i)) offer(i, j, false, b_.continues(j - 1), way);
       }
     }
   }
 
   // Stores the path that ends with this step in `way`, unless `way` already holds a cheaper path. A
   // step without a triangle costs more than an edge of any length.
-  void offer(std::size_t i, std::size_t j, bool goes_down_a, bool goes_on, Way& way) const {
+  void offer(std::size_t i, std::size_t j, bool goes_down_a, bool continues, Way& way) const {
     const std::size_t from = goes_down_a ? band_.cell(i - 1, j) : band_.cell(i, j - 1);
     const double length = edges_[band_.cell(i, j)];
-    const bool joins = goes_on && edges_[from] < kNever && length < kNever;
+    const bool joins = continues && edges_[from] < kNever && length < kNever;
     const double cost = ways_[from].cost + (joins ? length : kBreak * spacing_.bridge);
     if (cost < way.cost) way = {cost, goes_down_a, joins};
   }
@@ -183,7 +184,7 @@ class Strip {
   std::vector<Way> ways_;      // the cheapest path to each edge
 };
 
-// Returns the strands of `step`, which are to be joined to those of the step `other`.
+// Returns the strands of `step`, prepared for joining to the strands of the step `other`.
 std::vector<Side> sides_of(const Cloud& cloud, std::size_t step, std::size_t other,
                            const Spacing& spacing) {
   std::vector<Side> sides;

@@ -6,14 +6,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "acquisition/surface/close_holes.h"
 #include "acquisition/surface/cloud.h"
-#include "acquisition/surface/fill_gaps.h"
-#include "acquisition/surface/second_views.h"
-#include "acquisition/surface/smooth.h"
-#include "acquisition/surface/strands.h"
+#include "acquisition/surface/steps.h"
 #include "acquisition/surface/strays.h"
-#include "acquisition/surface/strip.h"
 
 namespace vitrine::acquisition {
 namespace {

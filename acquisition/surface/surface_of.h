@@ -27,11 +27,11 @@ struct SurfaceReport {
   std::uint64_t points = 0;  // number of points before processing
   // Numbers of points dropped as outliers and as isolated pieces (strays.h).
   std::uint64_t outliers = 0, isolated = 0;
-  std::uint64_t seen_twice = 0;  // number of points dropped as second views (second_views.h)
-  std::uint64_t filled = 0;      // number of points added in gaps (fill_gaps.h)
-  std::uint64_t smoothed = 0;    // number of points moved by smoothing (smooth.h)
+  std::uint64_t seen_twice = 0;  // number of points dropped as second views (first_views())
+  std::uint64_t filled = 0;      // number of points added in gaps (fill_gaps())
+  std::uint64_t smoothed = 0;    // number of points moved by smoothing (smooth())
   std::uint64_t sampled = 0;     // number of points left after sampling
-  std::uint64_t holes = 0;       // number of holes closed in the mesh (close_holes.h)
+  std::uint64_t holes = 0;       // number of holes closed in the mesh (close_holes())
   double spacing = 0;            // the distance s_max ([WLL] eq. 5) that was used, in mm
 };
 
@@ -42,7 +42,7 @@ struct ScannedSurface {
 };
 
 // Makes a mesh from the `profiles` of one revolution, which may be in any order. The last profile
-// joins the first. Profiles whose rows show two surfaces are split into strands (strands.h), and
+// joins the first. Profiles whose rows show two surfaces are split into strands (steps.h), and
 // each strand joins the nearest strands. The order of processing is: drop outliers, isolated points
 // and second views beyond the axis; fill gaps; smooth; sample; mesh; close small holes. No edge has
 // more than two faces, and these traverse it in opposite directions. A vertex may have several

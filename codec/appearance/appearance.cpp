@@ -47,7 +47,8 @@ struct ViewDifference {
 
 using Differences = std::array<ViewDifference, kViews>;
 
-// Calls visit(i) for each view i in several threads. Each thread takes about 100 MB to render.
+// Calls visit(i) for each view i, in several threads. Each thread needs about 100 MB of memory to
+// render.
 template <class Visit>
 void for_each_view(const Visit& visit) {
   for_each_index(std::max(1u, std::thread::hardware_concurrency()), kViews, visit);

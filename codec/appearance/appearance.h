@@ -20,11 +20,11 @@ struct ComparedModel {
 };
 
 struct Appearance {
-  // Peak signal-to-noise ratio (squared_error.h) in decibels, over all pixels that show either
-  // model in any view. Nullopt if the pictures are equal.
+  // Peak signal-to-noise ratio (squared_error.h) in decibels, over all pixels of all views that
+  // show at least one of the models. Nullopt if the pictures are equal.
   std::optional<double> psnr;
   // Structural similarity index of the luma (structural_similarity.h), at most 1. This is the mean
-  // over all views that show either model.
+  // over all views that show at least one of the models.
   double ssim = 1;
 };
 
@@ -42,11 +42,11 @@ class AppearanceReference {
   std::array<Picture, kViews> pictures_;
 };
 
-// Renders both models in the views around the reference `b` (views.h), over the grey of backdrop.h.
-// Both get the light and the matt surfaces of codec/render. Vertices at the same position get the
-// same normal.
+// Renders both models in the views around the reference `b` (views.h), on a grey background
+// (backdrop.h), and compares the pictures. Both models get the same light and matt surfaces
+// (codec/render). Vertices at the same position get the same normal.
 //
-// A part of `a` outside the views is cut off. Swapping the models therefore changes the result,
+// Parts of `a` outside these views are cut off. Swapping the models therefore changes the result,
 // unless their bounding spheres are equal.
 //
 // Fails (kBadInput) if a mesh has no face, a face index is out of range, or no pixel can be

@@ -12,8 +12,8 @@ namespace vitrine::inline codec {
 // + (1 - o) * 128, rounded. The opacities do not change.
 void lay_over_grey(Picture& picture);
 
-// Whether the pixel `index` shows a model, with an opacity above 0, in either of two pictures of
-// the same size.
+// Whether pixel number `index` shows a model in picture `a` or `b`: its opacity is above 0 in at
+// least one of them. Both pictures must have the same size.
 inline bool is_covered(const Picture& a, const Picture& b, std::size_t index) {
   return a.pixels[4 * index + 3] != 0 || b.pixels[4 * index + 3] != 0;
 }

@@ -17,8 +17,8 @@ struct SquaredError {
   void operator+=(const SquaredError& other) { sum += other.sum, bytes += other.bytes; }
 };
 
-// Compares the pixels that show a model in either picture (is_covered() in backdrop.h). Both
-// pictures must have the same size.
+// Compares the pixels that show a model in at least one of the pictures (is_covered() in
+// backdrop.h). Both pictures must have the same size.
 SquaredError squared_error(const Picture& a, const Picture& b);
 
 // Returns 10 * log10(255^2 / mean squared error), in decibels. Returns nullopt if the error is 0 or

@@ -52,7 +52,7 @@ std::array<double, kWindow> gaussian() {
 }
 
 // Returns a plane of width x height values. Each value is the weighted sum of `kWindow` values of
-// `plane` that are `stride` apart.
+// `plane` that are `stride` elements apart.
 Plane weighted_sums(const Plane& plane, std::size_t width, std::size_t height, std::size_t stride) {
   static const auto weights = gaussian();
   Plane sums{width, height, std::vector<double>(width * height)};

@@ -12,9 +12,9 @@ namespace vitrine::inline codec {
 // 0.587 G + 0.114 B of the sRGB bytes, not rounded. A window has 11 x 11 pixels, with Gaussian
 // weights of standard deviation 1.5 pixels (eq. 14-16). K1 = 0.01, K2 = 0.03 and L = 255.
 //
-// The mean is over the windows that lie inside the picture and whose centre shows a model in either
-// picture (is_covered() in backdrop.h). Eq. 17 takes all windows instead. Returns nullopt if there
-// is no such window. Both pictures must have the same size.
+// The mean is over the windows that lie inside the picture and whose centre pixel shows a model in
+// at least one picture (is_covered() in backdrop.h). Eq. 17 averages over all windows instead.
+// Returns nullopt if no window qualifies. Both pictures must have the same size.
 std::optional<double> structural_similarity(const Picture& a, const Picture& b);
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chart is a connected piece of a mesh that is flattened as a whole. Its faces share wedges
-// across all edges except seams.
+// A chart is a connected piece of a mesh that is flattened as a whole. A wedge is a set of face
+// corners at one vertex of a chart, connected across edges that are not seams.
 #pragma once
 
 #include <array>
@@ -41,25 +41,25 @@ inline void cut(HalfEdges& edges, std::uint32_t half_edge) {
 
 struct Chart {
   std::vector<std::uint32_t> faces;  // indices of the chart's faces in the mesh
-  HalfEdges edges;                   // half-edges of the chart's faces; face indices count from 0
-  std::vector<Triangle> wedges;      // for each face, the wedges of its corners, counted from 0
+  HalfEdges edges;                   // half-edges of the faces, which are numbered from 0
+  std::vector<Triangle> wedges;      // for each face, the wedge numbers of its corners
   std::vector<Vec3> positions;       // position of each wedge in space
-  std::vector<Vec2> uv;              // place of each wedge in the plane
+  std::vector<Vec2> uv;              // position of each wedge in the plane
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(faces.size()); }
 };
 
-// Divides the faces into connected sets with equal labels. Returns the number of each face's set.
-// Sets are numbered in the order of their first faces.
+// Divides the faces into connected sets of faces with the same label. Returns, for each face, the
+// number of its set. Sets are numbered in the order of their first faces.
 std::vector<std::uint32_t> connected_sets(const HalfEdges& edges,
                                           std::span<const std::uint32_t> labels);
 
 // Returns the half-edges of each boundary loop. Seams count as boundaries.
 std::vector<std::vector<std::uint32_t>> boundary_loops(const HalfEdges& edges);
 
-// Returns one chart for each connected set of faces with equal labels, in the order of their first
-// faces. An edge between faces of different labels becomes a seam. `faces` holds indices of faces
-// of the mesh; `edges` and `labels` have one entry for each of them.
+// Returns one chart for each connected set of faces with the same label, in the order of their
+// first faces. An edge between faces of different labels becomes a seam. `faces` holds indices of
+// faces of the mesh. `edges` and `labels` have one entry per face in `faces`.
 std::vector<Chart> charts_of(const MeshView& mesh, std::span<const std::uint32_t> faces,
                              const HalfEdges& edges, std::span<const std::uint32_t> labels);
 

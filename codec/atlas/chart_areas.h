@@ -7,7 +7,8 @@
 
 namespace vitrine::inline codec {
 
-// Very thin faces count as slightly wider than they are; see doubled_area().
+// Returns the area of the face in space. Very thin faces count as slightly wider than they are
+// (doubled_area()).
 inline double area_in_space(const Chart& chart, std::uint32_t face) {
   const auto& [a, b, c] = chart.wedges[face];
   const Vec3& from = chart.positions[a];

@@ -21,12 +21,12 @@ Vec2 conjugate(const Vec2& a) {
   return {a.x, -a.y};
 }
 
-// The residual of a face is the sum over its corners of weight times position in the plane. The
-// residual is zero if the map is a similarity on the face.
+// The residual of a face is the sum, over its three corners, of weight times position in the plane.
+// It is zero if the map is a similarity on the face.
 using Weights = std::array<Vec2, 3>;
 
-// The weight of a corner is the opposite side, in the plane of the face, divided by the square root
-// of the face's area.
+// The weight of a corner is the vector along the opposite side, in the plane of the face, divided
+// by the square root of the face's area.
 Weights weights_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
   const double base = length(ab), area = doubled_area(ab, ac);

@@ -6,8 +6,9 @@
 
 namespace vitrine::inline codec {
 
-// Returns the place of each wedge in the plane. Two boundary wedges that are far apart are pinned
-// at their distance in space. Faces may be flipped. The chart must have a boundary.
+// Returns the position of each wedge in the plane. Two boundary wedges that are far apart are
+// pinned: their distance in the plane equals their distance in space. Faces may be flipped. The
+// chart must have a boundary.
 std::vector<Vec2> conformal_map(const Chart& chart);
 
 }  // namespace vitrine::inline codec

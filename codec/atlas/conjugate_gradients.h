@@ -19,12 +19,14 @@ inline double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
 
 struct StoppingRule {
   int iterations;
-  // Stop once the preconditioned residual's norm is this fraction of its first value.
+  // Stop once the norm of the preconditioned residual has fallen to this fraction of its first
+  // value.
   double reduction;
 };
 
-// `residual` is b - A x. `diagonal` is the diagonal of A, one entry per unknown. apply(p) returns A
-// p. The residual and apply's result must be zero at fixed unknowns.
+// Improves `x` in place. `residual` is b - A x. `diagonal` is the diagonal of A, with one entry per
+// unknown. apply(p) returns A * p. At fixed unknowns, `residual` and the result of apply() must be
+// zero.
 template <class Apply>
 void conjugate_gradients(const Apply& apply, const std::vector<double>& diagonal,
                          std::vector<Vec2> residual, std::vector<Vec2>& x,

@@ -55,7 +55,7 @@ class HandleCutter {
     return length(chart_.positions[end(h)] - chart_.positions[start(h)]);
   }
 
-  // Grows Dijkstra's tree of shortest paths from wedge `root`.
+  // Grows the tree of shortest paths from wedge `root`, by Dijkstra's algorithm.
   void grow_tree(std::uint32_t root) {
     using Reached = std::pair<double, std::uint32_t>;
     std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
@@ -118,10 +118,10 @@ class HandleCutter {
   }
 
   const Chart& chart_;
-  // For each wedge, one half-edge of each edge there.
+  // For each wedge, one half-edge of each edge that ends at the wedge.
   std::vector<std::vector<std::uint32_t>> around_;
-  std::uint32_t dual_nodes_;  // number of nodes: faces, then boundary loops
-  // For each half-edge at a boundary, the node of its boundary loop.
+  std::uint32_t dual_nodes_;  // number of nodes of the dual graph: faces, then boundary loops
+  // For each half-edge at a boundary, the dual node of its boundary loop.
   std::vector<std::uint32_t> dual_of_boundary_;
   std::vector<double> distance_;             // for each wedge, its distance from the root
   std::vector<std::uint32_t> towards_root_;  // for each wedge, the edge to its parent in the tree

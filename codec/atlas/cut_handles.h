@@ -12,7 +12,7 @@ std::uint32_t doubled_genus(const Chart& chart);
 
 // Cuts the chart along its shortest loops that do not divide it, until the chart has no handles.
 // Uses the tree-cotree decomposition of [EW05] from up to 60 roots. Returns false as soon as the
-// seams divide the chart, because a loop may touch a hole twice. Some handles are then left.
+// seams divide the chart, which can happen if a loop touches a hole twice. Handles may then remain.
 bool cut_handles(const MeshView& mesh, Chart& chart);
 
 }  // namespace vitrine::inline codec

@@ -10,13 +10,14 @@
 
 namespace vitrine::inline codec {
 
-// Each function below returns one label for each face of the chart. charts_of() takes these labels.
+// Each function below returns one label for each face of the chart. charts_of() divides the chart
+// by these labels.
 
 // Divides the chart into two halves, which grow from two faces far apart.
 std::vector<std::uint32_t> halves(const Chart& chart);
 
-// Separates the given faces, and all faces that touch them, from the rest. Returns halves() if
-// these faces are more than half of the chart.
+// Separates the given faces, and all faces that touch them, from all other faces. Returns halves()
+// if the separated faces are more than half of the chart.
 std::vector<std::uint32_t> with_ring_cut_out(const Chart& chart,
                                              std::span<const std::uint32_t> faces);
 

@@ -16,11 +16,11 @@
 namespace vitrine::inline codec {
 namespace {
 
-// From this round on, cuts out bad faces without their neighbours.
+// From this round on, bad faces are cut out without their neighbours.
 constexpr int kSingleFaceRound = 8;
 constexpr int kRounds = 12;
-// Charts with a larger doubled genus are divided into halves first, because cutting handles takes
-// time in proportion to their number.
+// Charts with a larger doubled genus are first divided into halves, because the time to cut handles
+// grows with their number.
 constexpr std::uint32_t kMostDoubledGenus = 64;
 
 std::vector<std::uint32_t> each_alone(const Chart& chart) {
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> each_alone(const Chart& chart) {
   return labels;
 }
 
-// Flattens a chart. Returns nullopt on success. Otherwise returns labels that divide the chart.
+// Flattens a chart. Returns nullopt on success, or labels that divide the chart on failure.
 std::optional<std::vector<std::uint32_t>> try_to_flatten(const MeshView& mesh, Chart& chart,
                                                          int round) {
   if (doubled_genus(chart) > kMostDoubledGenus) return halves(chart);

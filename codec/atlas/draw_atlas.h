@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws an atlas on a mesh: cuts the surface into charts and flattens each of them. The result
-// depends on the input alone; every machine computes the same bits.
+// Draws an atlas on a mesh: cuts the surface into charts and flattens each chart. Every machine
+// computes the same bits.
 #pragma once
 
 #include <array>
@@ -24,11 +24,11 @@ struct Atlas {
 };
 
 // Draws an atlas of `faces`, which index `positions`. The mesh should be a manifold of at most
-// about 10,000 faces; boundaries, handles and many components are allowed. Edges of more than two
+// about 10,000 faces; boundaries, handles and many components are allowed. Edges with more than two
 // faces become seams. Each chart is connected and has the area of its faces in space.
 //
-// Faces run counter-clockwise in the plane, and charts do not overlap themselves by more than 0.2 %
-// of their area.
+// In the plane, the corners of every face run counter-clockwise. A chart overlaps itself by at most
+// 0.2 % of its area.
 Atlas draw_atlas(std::span<const Vec3> positions, std::span<const Triangle> faces);
 
 }  // namespace vitrine::inline codec

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSweeps = 100;
 constexpr int kDirections = 32;
-// the relaxation ends if no wedge moves farther, in mean edge lengths
+// relaxation stops once no wedge moves farther than this, in mean edge lengths
 constexpr double kStill = 1e-4;
 
 bool has_flipped_face(const Chart& chart) {
@@ -110,7 +110,8 @@ class Relaxation {
   std::vector<EnergyTriangle> star_;
 };
 
-// Returns the width and height of the chart's bounding box that has one side along `direction`.
+// Returns the width and height of the chart's bounding box whose sides are parallel and
+// perpendicular to `direction`.
 Vec2 box_side(const Chart& chart, const Vec2& direction) {
   const double far = std::numeric_limits<double>::infinity();
   Vec2 low{far, far}, high{-far, -far};
@@ -122,8 +123,8 @@ Vec2 box_side(const Chart& chart, const Vec2& direction) {
   return high - low;
 }
 
-// Tries 32 directions within a quarter turn. Rotates the chart so that its bounding box is
-// smallest, with the long side lying flat.
+// Rotates the chart so that its bounding box has the smallest area, with the long side horizontal.
+// Tries 32 directions within a quarter turn.
 void lie_flat(Chart& chart) {
   Vec2 best{1, 0};
   double least = std::numeric_limits<double>::infinity();

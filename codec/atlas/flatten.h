@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flattens a chart: computes the places of its wedges in the plane.
+// Flattens a chart: computes the positions of its wedges in the plane.
 #pragma once
 
 #include "codec/atlas/chart.h"

@@ -57,7 +57,7 @@ Footprint footprint_of(const ChartTriangles& chart, const Box2& box, double scal
     for (std::size_t k = 0; k < 3; ++k)
       t[k] = (Vec2{triangle[k][0], triangle[k][1]} - box.low) * scale;
     rasterise(t, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-      // Rounding may put the crossing of an edge one cell too far to the side.
+      // Rounding may place the point where an edge crosses the row one cell too far to the side.
       first = std::max(first, 0), last = std::min(last, footprint.width - 1);
       std::uint8_t* const row = cells.data() + static_cast<std::size_t>(y) * footprint.width;
       std::fill(row + first, row + last + 1, std::uint8_t{1});
@@ -69,8 +69,8 @@ Footprint footprint_of(const ChartTriangles& chart, const Box2& box, double scal
   return footprint;
 }
 
-// The nearest points of two cells that are dx columns and dy rows apart are dx - 1 columns and dy -
-// 1 rows apart.
+// Computes `reach_`. Between two cells that are dx columns and dy rows apart, there is a gap of dx
+// - 1 columns and dy - 1 rows. Cells whose gap is smaller than the gutter are in reach.
 CellSquare::CellSquare(std::int32_t side, double gutter_cells)
     : side_(side),
       words_((side + 63) / 64),
@@ -93,7 +93,7 @@ bool CellSquare::may_fit(const Footprint& footprint, std::int32_t y) const {
   });
 }
 
-std::int32_t CellSquare::shift_past_taken(const CellRun& run, const Place& place) const {
+std::int32_t CellSquare::shift_past_taken(const CellRun& run, const CellPosition& place) const {
   const std::int32_t begin = place.x + run.begin, end = place.x + run.end;
   const std::uint64_t* const row =
       taken_.data() + static_cast<std::size_t>(place.y + run.row) * words_;
@@ -104,9 +104,9 @@ std::int32_t CellSquare::shift_past_taken(const CellRun& run, const Place& place
   return 0;
 }
 
-std::optional<Place> CellSquare::find(const Footprint& footprint) const {
-  std::size_t last_hit = 0;  // the run that blocked the previous place is tested first
-  for (Place place{0, 0}; place.y + footprint.height <= side_; ++place.y) {
+std::optional<CellPosition> CellSquare::find(const Footprint& footprint) const {
+  std::size_t last_hit = 0;  // the run that blocked the last place; it is tested first
+  for (CellPosition place{0, 0}; place.y + footprint.height <= side_; ++place.y) {
     if (!may_fit(footprint, place.y)) continue;
     for (place.x = 0; place.x + footprint.width <= side_;) {
       std::int32_t shift = shift_past_taken(footprint.runs[last_hit], place);
@@ -121,7 +121,7 @@ std::optional<Place> CellSquare::find(const Footprint& footprint) const {
   return std::nullopt;
 }
 
-void CellSquare::take(const Footprint& footprint, const Place& place) {
+void CellSquare::take(const Footprint& footprint, const CellPosition& place) {
   const auto reach = static_cast<std::int32_t>(reach_.size()) - 1;
   for (const CellRun& run : footprint.runs) {
     for (std::int32_t dy = -reach; dy <= reach; ++dy) {

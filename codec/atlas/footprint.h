@@ -33,7 +33,7 @@ Box2 box_of(const ChartTriangles& chart);
 // high.
 Footprint footprint_of(const ChartTriangles& chart, const Box2& box, double scale);
 
-struct Place {
+struct CellPosition {
   std::int32_t x, y;
 };
 
@@ -42,22 +42,22 @@ class CellSquare {
  public:
   CellSquare(std::int32_t side, double gutter_cells);
 
-  // Returns the lowest free place for a footprint, and the leftmost of several equally low ones.
+  // Returns the lowest free place for a footprint. Among equally low places, returns the leftmost.
   // Returns nullopt if no place is free.
-  std::optional<Place> find(const Footprint& footprint) const;
-  // Marks as taken the cells of a footprint and all cells nearer to it than the gutter.
-  void take(const Footprint& footprint, const Place& place);
+  std::optional<CellPosition> find(const Footprint& footprint) const;
+  // Marks the cells of a footprint as taken, and also all cells closer to it than the gutter width.
+  void take(const Footprint& footprint, const CellPosition& place);
 
  private:
   bool may_fit(const Footprint& footprint, std::int32_t y) const;
   // Returns how many cells the run must move to the right to pass its last taken cell. Returns 0 if
   // no cell of the run is taken.
-  std::int32_t shift_past_taken(const CellRun& run, const Place& place) const;
+  std::int32_t shift_past_taken(const CellRun& run, const CellPosition& place) const;
   void mark(std::int32_t y, std::int32_t begin, std::int32_t end);
   std::int32_t longest_free_run(std::int32_t y) const;
 
   std::int32_t side_, words_;
-  // For each distance in rows, how far the gutter reaches sideways.
+  // For each distance in rows: how many cells to the side the gutter reaches.
   std::vector<std::int32_t> reach_;
   std::vector<std::uint64_t> taken_;   // one bit per cell, words_ words per row
   std::vector<std::int32_t> longest_;  // for each row, the length of its longest free run

@@ -114,7 +114,8 @@ class ChartGrower {
     return length(centre_[to] - centre_[from]) / unit_ * (0.35 + turn + 4 * turn * turn);
   }
 
-  // Places one seed in each component. Then places further seeds where the cost is greatest.
+  // Places one seed in each component. Then places each further seed at the face with the greatest
+  // cost.
   void sow() {
     forget();
     for (std::uint32_t f = 0; f < size(); ++f) {
@@ -160,7 +161,7 @@ class ChartGrower {
   std::vector<Vec3> centre_, normal_;  // indexed by face
   std::vector<double> area_;           // indexed by face
   std::uint32_t seed_count_;
-  double unit_;                       // side of a square that has the mean area of a chart
+  double unit_;                       // side of a square with the mean area of a chart
   std::vector<std::uint32_t> seeds_;  // for each chart, its seed face
   std::vector<double> cost_;          // for each face, the cost from the seed of its chart
   std::vector<std::uint32_t> label_;  // for each face, its chart

@@ -9,10 +9,10 @@
 
 namespace vitrine::inline codec {
 
-// Returns a label for each face. Grows about 40 charts from seeds by Dijkstra's algorithm, then
-// moves each seed to the middle of its chart, and repeats this (Lloyd's algorithm on faces, as in
-// [SWG03]). Each component has at least one chart. Charts of few faces are merged with a neighbour
-// if there is one.
+// Returns a label for each face. Grows about 40 charts from seed faces by Dijkstra's algorithm,
+// moves each seed to the middle of its chart, and repeats both steps (Lloyd's algorithm on faces,
+// as in [SWG03]). Each component has at least one chart. Charts with few faces are merged with a
+// neighbour chart, if there is one.
 std::vector<std::uint32_t> grow_charts(const MeshView& mesh, const HalfEdges& edges);
 
 }  // namespace vitrine::inline codec

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastAreaRatio = 1.0 / 8, kMostAreaRatio = 6;
 constexpr double kMostOverlap = 0.002;
 constexpr double kPixelsPerFace = 40;
-constexpr double kMostPixelsPerFace = 4000;  // limit for the chart's bounding box
+constexpr double kMostPixelsPerFace = 4000;  // limit on the pixels of the chart's bounding box
 
 // Calls row(y, begin, end) for the pixels whose centres lie in a triangle. Two triangles with a
 // common side share no pixel.

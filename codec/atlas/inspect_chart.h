@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests whether a flattened chart is fit to carry a picture.
+// Tests whether a flattened chart is good enough to carry a texture.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace vitrine::inline codec {
 
 struct ChartFaults {
   bool overlaps = false;  // more than 0.2 % of the chart is covered twice
-  // Indices, within the chart, of faces that are flipped or have an area ratio outside 1/8 to 6.
+  // Indices, within the chart, of faces that are flipped, or whose area in the plane is less than
+  // 1/8 or more than 6 times their area in space.
   std::vector<std::uint32_t> bad_faces;
 
   bool none() const { return !overlaps && bad_faces.empty(); }
@@ -19,7 +20,7 @@ struct ChartFaults {
 
 ChartFaults inspect(const Chart& chart);
 
-// Returns the share of the chart's pixels that more than one face covers. Samples 40 pixels per
+// Returns the share of the chart's pixels that more than one face covers. Uses about 40 pixels per
 // face.
 double overlapping_share(const Chart& chart);
 

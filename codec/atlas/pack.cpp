@@ -74,7 +74,7 @@ class Packer {
     CellSquare square(cells_, gutter_);
     for (const std::size_t i : order) {
       if (footprints_[i].runs.empty()) continue;
-      const std::optional<Place> place = square.find(footprints_[i]);
+      const std::optional<CellPosition> place = square.find(footprints_[i]);
       if (!place) return false;
       square.take(footprints_[i], *place);
       place_[i] = *place;
@@ -97,7 +97,7 @@ class Packer {
   double extent_ = 0;  // longest side of any chart's bounding box
   std::vector<Box2> boxes_;
   std::vector<Footprint> footprints_;
-  std::vector<Place> place_;
+  std::vector<CellPosition> place_;
 };
 
 }  // namespace

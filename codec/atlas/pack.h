@@ -20,11 +20,11 @@ struct Packing {
 
 // Places all charts at the same scale, as large as possible and without rotation. Points of
 // different charts are at least `gutter` apart, as a fraction of the square's side. Coordinates
-// must be finite and below 1e100. A chart without triangles gets any place. About ten scales are
-// tried, each in time proportional to the number of triangles.
+// must be finite and below 1e100. A chart without triangles gets an arbitrary place. Tries about
+// ten scales; each takes time proportional to the number of triangles.
 //
 // If there are so many charts that the gutters alone fill the square, the gutter is halved until
-// they fit.
+// the charts fit.
 Packing pack(std::span<const ChartTriangles> charts, double gutter = 1.0 / 256);
 
 }  // namespace vitrine::inline codec

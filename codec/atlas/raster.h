@@ -11,8 +11,9 @@
 
 namespace vitrine::inline codec {
 
-// Calls row(y, first_x, last_x) for each row of cells that the closed triangle touches. It touches
-// the cells from first_x to last_x. Coordinates must be within the range of 32-bit integers.
+// Calls row(y, first_x, last_x) for each row of cells that the triangle touches, borders included.
+// In row y, the triangle touches the cells first_x to last_x. Coordinates must be within the range
+// of 32-bit integers.
 template <class Row>
 void rasterise(const std::array<Vec2, 3>& t, const Row& row) {
   const std::int32_t first = exact::floor(std::min({t[0].y, t[1].y, t[2].y}));

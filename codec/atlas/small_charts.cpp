@@ -15,8 +15,8 @@ double edge_length(const MeshView& mesh, std::uint32_t h) {
   return length(mesh.positions[f[next_half_edge(h) % 3]] - mesh.positions[f[h % 3]]);
 }
 
-// Returns the label across the longest border of a set of faces, or nullopt if the set has no
-// neighbour.
+// Returns the label of the chart that shares the longest border with a set of faces. Returns
+// nullopt if the set has no neighbour.
 std::optional<std::uint32_t> closest_neighbour(const MeshView& mesh, const HalfEdges& edges,
                                                std::span<const std::uint32_t> labels,
                                                std::span<const std::uint32_t> faces) {

@@ -10,11 +10,12 @@
 
 namespace vitrine::inline codec {
 
-// Gives a face the label of two of its neighbours if these two have the same label.
+// Changes the label of each face that has two neighbours with the same label: the face gets their
+// label.
 void smooth_borders(const HalfEdges& edges, std::span<std::uint32_t> labels);
 
-// Merges each connected chart of six faces or fewer with the neighbour along the longest border.
-// Returns the new labels; the faces of each label are connected.
+// Merges each connected chart of at most six faces with the chart with which it shares the longest
+// border. Returns the new labels. The faces of each label are connected.
 std::vector<std::uint32_t> merge_small_charts(const MeshView& mesh, const HalfEdges& edges,
                                               std::span<const std::uint32_t> labels);
 

@@ -6,7 +6,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// shortest edge that is kept, and longest move, both in mean edge lengths
+// shortest edge that is left unchanged, and longest move of a point, both in mean edge lengths
 constexpr double kShort = 1e-3, kMove = 1e-2;
 
 // Returns a pseudo-random number in [-1, 1], by SplitMix64 [SLF14].

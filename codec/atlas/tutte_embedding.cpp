@@ -69,7 +69,7 @@ class TutteEmbedding {
   }
 
   // Spaces the wedges on the circle in proportion to their edge lengths. An edge shorter than a
-  // hundredth of the mean counts as a hundredth.
+  // hundredth of the mean edge gets a hundredth of the mean edge.
   void put_on_circle(const BoundaryLoop& loop) {
     const double whole = length_of(loop);
     const double least = whole > 0 ? whole / (100.0 * static_cast<double>(loop.size())) : 1;
@@ -104,7 +104,7 @@ class TutteEmbedding {
   }
 
   const Chart& chart_;
-  std::vector<Vec2> uv_;                // places of the wedges, then of the middle of each hole
+  std::vector<Vec2> uv_;                // positions of the wedges, then of the hole centres
   std::vector<std::uint8_t> is_fixed_;  // for each entry of uv_, whether it is fixed
   std::vector<Link> links_;
 };

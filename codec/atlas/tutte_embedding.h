@@ -7,8 +7,8 @@
 
 namespace vitrine::inline codec {
 
-// Returns the place of each wedge in the plane. Faces of a disc are never flipped, apart from
-// rounding errors. Holes of the chart count as filled. The chart must have a boundary and no
+// Returns the position of each wedge in the plane. Faces of a disc are never flipped, apart from
+// rounding errors. Holes of the chart are treated as filled. The chart must have a boundary and no
 // handle.
 std::vector<Vec2> tutte_embedding(const Chart& chart);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of the display atlas under construction. For each texel, it records the share that
-// charts cover.
+// A picture of the display atlas under construction. Records for each texel how much of it charts
+// cover.
 #pragma once
 
 #include <array>
@@ -18,20 +18,20 @@ using TexelValue = std::array<float, 4>;
 struct AtlasPicture {
   std::uint32_t side = 0;
   std::vector<TexelValue> texels;  // row by row from the top
-  std::vector<float> covered;  // share of each texel that charts cover; 0: the texel has no value
+  std::vector<float> covered;      // covered share of each texel, 0 to 1; 0: the texel has no value
 };
 
 // Returns the picture reduced to half the side, which must be even. Each texel is the mean of four
-// texels, weighted by the share of them that charts cover.
+// texels, weighted by how much of each texel charts cover.
 AtlasPicture halved(const AtlasPicture& picture);
 
 // Fills the texels that no chart covers with a smooth continuation of the charts, by the push-pull
-// method [GGSC96]. Smooth texels compress well, and a viewer that interpolates at a chart's border
-// gets the right colours.
+// method [GGSC96]. Smooth texels compress well, and viewers that interpolate across a chart's
+// border show no false colours.
 void fill_uncovered(AtlasPicture& picture);
 
-// Returns the picture as bytes. Colours become sRGB if `is_srgb`. Opacities become 1 unless
-// `has_opacity`.
+// Returns the picture with one byte per channel. Converts colours to sRGB if `is_srgb`. Sets all
+// opacities to 1 unless `has_opacity`.
 Picture to_picture(const AtlasPicture& atlas, bool is_srgb, bool has_opacity);
 
 }  // namespace vitrine::inline codec

@@ -10,6 +10,7 @@
 #include "codec/bake/draw_atlas_picture.h"
 #include "codec/bake/role_maps.h"
 #include "codec/core/limits.h"
+#include "codec/core/printable.h"
 #include "codec/picture/decode_picture.h"
 #include "codec/picture/write_webp.h"
 
@@ -17,21 +18,22 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr double kMostSide = 8192, kLeastSide = 64;
-// Most pixels per side of the smallest picture of a role.
+// Largest side, in pixels, of the smallest picture of a role.
 constexpr std::uint32_t kCoarsestSide = 256;
-// WebP qualities to try for the finest picture, best first. The first quality is used with which
-// the picture takes no more bytes than the source's pictures. If the best quality were below 88,
-// small models would look visibly worse than their sources (codec/simplify/TEXTURES.md, section 7).
+// WebP qualities (0 to 100) to try for the finest picture, best first. Stops at the first quality
+// at which the picture needs no more bytes than the source's pictures. With a best quality below
+// 88, small models would look visibly worse than their sources (codec/simplify/TEXTURES.md, section
+// 7).
 constexpr std::array<int, 5> kQualities = {88, 84, 80, 75, 70};
 constexpr std::array<int, 3> kSurfaceQualities = {80, 75, 70};
-// WebP qualities of the smaller pictures: kQuality for sides above kLargestCoarse, else
-// kCoarseQuality. A viewer soon replaces coarse pictures, and a lower quality saves more bytes than
-// a smaller side would (codec/simplify/TEXTURES.md, section 8).
+// WebP qualities of the smaller pictures: kQuality for sides above kLargestCoarse pixels, else
+// kCoarseQuality. Coarse pictures may be worse because a viewer soon replaces them. Lowering their
+// quality saves more bytes than lowering their size (codec/simplify/TEXTURES.md, section 8).
 constexpr int kQuality = 80, kCoarseQuality = 60;
 constexpr std::uint32_t kLargestCoarse = 640;
 // Number of texels of the finest picture per texel of the source, on each axis. It exceeds 1
-// because resampling blurs. Pictures of occlusion, roughness and metalness have half the texels on
-// each axis, as the eye hardly sees their detail.
+// because resampling blurs. Pictures of occlusion, roughness and metalness have half as many texels
+// on each axis, because the eye hardly sees their detail.
 constexpr double kDensity = 1.14, kSurfaceDensity = kDensity / 2;
 
 double doubled_area(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -53,8 +55,8 @@ std::vector<Picture> decode_intact(std::span<const MapOfMaterial> maps, Texturin
     }
     is_damaged[i] = true;
     const std::string& name = texturing.pictures[i].name;
-    notes.push_back("texture map " + (name.empty() ? std::to_string(i) : name) + " left out: it " +
-                    picture.error().message);
+    notes.push_back("1 texture map, " + (name.empty() ? std::to_string(i) : in_quotes(name)) +
+                    ", left out: it " + picture.error().message);
   };
   for (Material& material : texturing.materials) {
     for (const MapOfMaterial map : maps) {
@@ -76,8 +78,8 @@ double texels_of(const TextureMap& map, const Picture& picture,
   return doubled_area(at[0], at[1], at[2]) / 2;
 }
 
-// Returns how many texels per side the display atlas needs to show the faces with this map as
-// finely as the source does. A repeated picture counts at most four times.
+// Returns how many texels per side the display atlas needs to show the faces that have the map `of`
+// as finely as the source does. A picture that repeats counts at most four times.
 double side_for(MapOfMaterial of, const Texturing& texturing, const std::vector<Picture>& pictures,
                 std::span<const DisplayFace> display) {
   double texels = 0, area = 0, most = 0;
@@ -129,8 +131,8 @@ Expected<std::vector<std::uint8_t>> encoded(const Picture& picture, int quality)
               "the picture of the texture: " + bytes.error().message + "; use smaller ones");
 }
 
-// Encodes a picture with the first of `qualities` that needs at most `most_bytes`, or else with the
-// last.
+// Encodes a picture with the first of `qualities` at which it needs at most `most_bytes`. If there
+// is none, uses the last quality.
 Expected<std::vector<std::uint8_t>> encode_within(std::uint64_t most_bytes, const Picture& picture,
                                                   std::span<const int> qualities) {
   for (const int quality : qualities.first(qualities.size() - 1)) {
@@ -140,11 +142,10 @@ Expected<std::vector<std::uint8_t>> encode_within(std::uint64_t most_bytes, cons
   return encoded(picture, qualities.back());
 }
 
-// Returns the side of an extra picture between two halvings of a picture with `finest` pixels per
-// side. Among the halvings, one has more than kLargestCoarse and at most 2 kLargestCoarse pixels
-// per side. The extra picture has three quarters of that side, because web pages usually show a
-// model at about this size. Returns nullopt if the finest picture has at most kLargestCoarse pixels
-// per side.
+// Returns the side of an extra picture, or nullopt if the finest picture has at most kLargestCoarse
+// pixels per side. Halving `finest` repeatedly gives one side that is above kLargestCoarse and at
+// most twice that. The extra picture has three quarters of this side, because web pages usually
+// show a model at about that size.
 std::optional<std::uint32_t> side_between(std::uint32_t finest) {
   std::uint32_t side = finest;
   while (side > 2 * kLargestCoarse)
@@ -153,8 +154,7 @@ std::optional<std::uint32_t> side_between(std::uint32_t finest) {
   return side * 3 / 4;
 }
 
-// Adds a picture. Encodes it with the first of `qualities` with which it takes at most
-// `most_bytes`.
+// Fills the uncovered texels of a picture, encodes it by encode_within() and adds it to `out`.
 Expected<void> add_picture(AtlasPicture atlas, PictureRole role, std::span<const int> qualities,
                            std::uint64_t most_bytes, BakedTexture& out) {
   const bool has_opacity = role == PictureRole::kBaseColour && out.alpha_mode != AlphaMode::kOpaque;
@@ -165,7 +165,7 @@ Expected<void> add_picture(AtlasPicture atlas, PictureRole role, std::span<const
   return {};
 }
 
-// Adds the picture and its smaller versions. Each of these has half the side of the one before.
+// Adds the picture and its smaller versions. Each version has half the side of the previous one.
 Expected<void> add_halvings(AtlasPicture atlas, PictureRole role, std::uint64_t most_bytes,
                             BakedTexture& out) {
   std::span<const int> qualities = kQualities;

@@ -23,15 +23,15 @@ struct BakedPicture {
 };
 
 struct BakedTexture {
-  // The coarsest picture of colours comes first. The others follow in ascending order of side, then
-  // of role. The coarsest picture of a role has at most 256 pixels a side, and each further one has
-  // twice the side of the one before. If one of them has over 640 and at most 1280 pixels a side,
-  // there is also a picture with three quarters of that side.
+  // The coarsest picture of colours comes first. The other pictures follow in ascending order of
+  // side, then of role. The coarsest picture of a role has at most 256 pixels per side. Each finer
+  // picture of the role has twice the side of the previous one. If one of them has a side of 641 to
+  // 1280 pixels, there is also a picture with three quarters of that side.
   std::vector<BakedPicture> pictures;
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   double alpha_cutoff = 0.5;
   bool is_double_sided = false, is_unlit = false;
-  // One line for each picture of the source that was left out, with the reason and the next step.
+  // One line for each picture of the source that was left out, with the reason and advice.
   std::vector<std::string> notes;
 };
 
@@ -39,9 +39,9 @@ struct BakedTexture {
 // picture's upper left corner to (1, 1) in its lower right corner.
 using DisplayFace = std::array<Vec2, 3>;
 
-// Bakes the textures of `mesh` into pictures of the display atlas. `texturing` belongs to the faces
-// of `mesh`, which have the same order as `display`. The finest picture has about as many texels as
-// the source; the picture of occlusion, roughness and metalness has a quarter as many.
+// Bakes the textures of `mesh` into pictures of the display atlas. `texturing` and `display`
+// describe the faces of `mesh`, in the same order. The finest picture has about as many texels as
+// the source. The picture of occlusion, roughness and metalness has a quarter of this number.
 //
 // A picture that cannot be decoded is left out, and a note names it. Fails (kUnsupported) only if
 // libwebp refuses a picture. Call this in the sandbox if the pictures are untrusted.

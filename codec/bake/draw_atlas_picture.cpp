@@ -50,7 +50,7 @@ class FaceValues {
   }
 
  private:
-  // Returns the value of a map, or white if the material does not have it.
+  // Returns the value of a map, or white if the material lacks this map.
   Texel texel(std::size_t map, const Barycentric& weights) const {
     return maps_[map] ? maps_[map]->at(weights) : Texel{1, 1, 1, 1};
   }
@@ -110,7 +110,7 @@ class TexelsAround {
     }
   }
 
-  // Adds `value` times the weight of each texel to `sums`, and the weights to `totals`.
+  // Adds `value` times the weight of each texel to `sums`, and the weight itself to `totals`.
   void add(const TexelValue& value, std::vector<TexelValue>& sums,
            std::vector<float>& totals) const {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -140,9 +140,9 @@ class TexelsAround {
   std::array<float, 4> weights_;
 };
 
-// Fits a picture, by least squares, so that its interpolated values differ least from the samples
-// of the source. Each round corrects each texel by the mean of the remaining differences near the
-// texel.
+// Fits a picture to samples of the source by least squares: its interpolated values then differ
+// least from the samples. Each round corrects each texel by the mean of the remaining differences
+// near the texel.
 class Fit {
  public:
   Fit(PictureRole role, std::uint32_t side, const TriangleMesh& mesh, const Textures& textures,

@@ -10,8 +10,8 @@
 
 namespace vitrine::inline codec {
 
-// Returns the picture of `role` with `side` texels per side. Inside the faces, the picture differs
-// as little as possible from the source.
+// Returns the picture for one role, such as base colours, with `side` texels per side. Inside the
+// faces, the picture differs as little as possible from the source.
 AtlasPicture draw_atlas_picture(PictureRole role, std::uint32_t side, const TriangleMesh& mesh,
                                 const Textures& textures, std::span<const DisplayFace> display);
 

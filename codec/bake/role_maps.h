@@ -34,8 +34,9 @@ inline bool has_map(const Material& material, PictureRole role) {
                              [&](MapOfMaterial map) { return (material.*map).has_value(); });
 }
 
-// Whether a material needs the picture of a role. Without this picture, a surface has no relief, is
-// matt and not metallic, and emits no light.
+// Whether a material needs the picture of a role. The picture of base colours is always needed.
+// Without the other pictures, a surface has no relief, is matt and not metallic, and emits no
+// light.
 inline bool needs(const Material& material, PictureRole role) {
   switch (role) {
     case PictureRole::kBaseColour:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the tangent-space normals of a face from the frame of one set of texture coordinates to
-// that of another.
+// Converts tangent-space normals of a face between the frames of two sets of texture coordinates.
 #pragma once
 
 #include <array>
@@ -13,8 +12,8 @@
 namespace vitrine::inline codec {
 
 // The tangent and the bitangent of a face: the directions in which its texture coordinates grow, in
-// the plane of the face. The bitangent points up in the picture. The longer of the two has length
-// 1.
+// the plane of the face. The bitangent points up in the picture. Both are scaled so that the longer
+// one has length 1.
 class TangentFrame {
  public:
   // `ab` and `ac` are two edges of the face, as vectors in its plane. `u` and `v` hold the

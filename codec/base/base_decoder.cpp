@@ -34,8 +34,8 @@ Unexpected other_attributes() {
               "the base mesh has other attributes than its model; build the model again");
 }
 
-// Reads how the values of each attribute are coded. The first attribute is the position. Returns,
-// for each attribute, the kind of order in which its values are coded.
+// Reads the coding parameters of each attribute; the first attribute is the position. Returns, for
+// each attribute, the order in which the values of the vertices are coded.
 Expected<OrderKinds> read_orders(ByteReader& in, const PerSemantic<Semantic>& semantics) {
   const std::size_t count = 1 + semantics.size();
   if (in.u8() != count) return other_attributes();
@@ -90,7 +90,7 @@ Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manife
   out.faces = faces_of(*table);
   for (std::size_t i = 0; i <= semantics.size(); ++i) {
     auto values = read_attribute(in, *table, (*orders)[i]);
-    if (!values) return tl::unexpected(std::move(values.error()));
+    if (!values) return tl::unexpected(values.error());
     if (i == 0) {
       out.positions = std::move(*values);
     } else {

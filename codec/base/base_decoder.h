@@ -11,10 +11,10 @@
 
 namespace vitrine::inline codec {
 
-// Decodes the Draco buffer `bytes`, which must be of the kind that FORMAT.md 1.7 describes. Fails
-// (kBadInput) if the buffer is damaged or does not match `manifest`, and (kUnsupported) if Draco
-// could read it but this codec never writes it. Safe on any bytes: allocates at most 1,000 bytes
-// per byte of `bytes`. The faces need not be a valid mesh; Refiner::start checks them.
+// Decodes the Draco buffer `bytes`, which must have the layout that FORMAT.md 1.7 describes. Fails
+// (kBadInput) if the buffer is damaged or does not match `manifest`. Fails (kUnsupported) if it
+// uses Draco features that this codec never writes. Safe on any bytes: allocates at most 1,000
+// bytes per byte of `bytes`. Does not check that the faces form a valid mesh; Refiner::start does.
 Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manifest& manifest);
 
 }  // namespace vitrine::inline codec

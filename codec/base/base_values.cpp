@@ -38,7 +38,7 @@ struct Range {
   }
 };
 
-// One bit for each parallelogram of a vertex: 1 if the prediction leaves out this parallelogram.
+// One bit for each parallelogram of a vertex: 1 excludes this parallelogram from the prediction.
 // `left` is the number of bits not read yet.
 struct Exclusions {
   std::uint32_t left = 0;
@@ -51,7 +51,7 @@ struct Exclusions {
   }
 };
 
-// Turns corrections into values: adds its prediction to each correction, in coded order.
+// Turns corrections into values. Predicts each value, in coded order, and adds its correction.
 class Predictor {
  public:
   Predictor(const CornerTable& table, const CodedOrder& order,
@@ -94,8 +94,9 @@ class Predictor {
   }
 
  private:
-  // Predicts value i as the mean of those parallelograms whose other three vertices have known
-  // values. Predicts the previous value if there is no such parallelogram.
+  // Predicts value i as the mean over its parallelograms. A parallelogram counts if its other three
+  // vertices have known values and no exclusion bit rules it out. If none counts, predicts value i
+  // - 1.
   bool predict(std::uint32_t i, Value& out) {
     std::array<Value, kMostParallelograms> found;
     const std::size_t count = has_several_ ? find(i, found) : parallelogram(i, found[0]);
@@ -136,8 +137,8 @@ class Predictor {
     return true;
   }
 
-  // Finds the parallelograms at the corners around a vertex. Goes to the left from the first
-  // corner. At a boundary, returns to the first corner and goes to the right.
+  // Finds the parallelograms at the corners around a vertex. Starts at the first corner and goes
+  // left. At a boundary, returns to the first corner and goes right.
   std::size_t find(std::uint32_t i, std::array<Value, kMostParallelograms>& out) const {
     const Corner first = order_.corner[i];
     std::size_t count = 0;
@@ -160,10 +161,9 @@ class Predictor {
 
   const CornerTable& table_;
   const CodedOrder& order_;
-  // Three integers per vertex, in coded order. They hold the correction until the value is
-  // predicted.
+  // Three integers per vertex, in coded order: the correction at first, then the value.
   std::vector<std::uint32_t> values_;
-  // Entry i belongs to vertices with i + 1 parallelograms.
+  // Entry i holds the bits of vertices that have i + 1 parallelograms.
   std::array<Exclusions, kMostParallelograms> exclusions_;
   bool has_several_ = false;
   Range range_{};
@@ -180,7 +180,7 @@ Expected<std::vector<Vec3i>> read_values(ByteReader& in, const CornerTable& tabl
                 "the base mesh predicts its values in another way; build the model again");
   auto corrections = read_symbols(in, static_cast<std::uint32_t>(order.corner.size()));
   if (corrections.empty()) return damaged_base("its values are no symbols");
-  // even symbols stand for numbers >= 0, odd ones for numbers < 0
+  // zigzag coding: even symbols are numbers >= 0, odd symbols are numbers < 0
   for (std::uint32_t& correction : corrections)
     correction = correction >> 1 ^ -(correction & 1);
   Predictor predictor(table, order, std::move(corrections));

@@ -58,8 +58,8 @@ class DepthFirstWalk : public Walk {
   }
 
  private:
-  // Walks from face to face until both neighbours of a face are open, or neither is. If both are
-  // open, appends them to `open`.
+  // Walks from face to face until both neighbours of a face are unvisited, or neither is. If both
+  // are, appends them to `open`.
   void follow(Corner c, std::vector<Corner>& open) {
     for (;;) {
       finish(c);
@@ -110,8 +110,8 @@ class PredictionDegreeWalk : public Walk {
     }
   }
 
-  // Returns c if the walk may continue there at once. Otherwise stores c in `open_` and returns
-  // kNoCorner.
+  // Returns c if the walk may continue at c immediately. If not, stores c in `open_` for later and
+  // returns kNoCorner.
   Corner try_next(Corner c, bool may_continue) {
     const std::size_t priority = priority_of(c);
     if (may_continue && priority <= best_) return c;

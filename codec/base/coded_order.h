@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which Draco codes the values of an attribute. Two kinds of walk over the faces
-// define two orders: the order in which the walk reaches the vertices. Internal to codec/base.
+// The two orders in which Draco can code the values of an attribute. Each is the order in which a
+// certain walk over the faces reaches the vertices. Internal to codec/base.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct CodedOrder {
 // that has another unvisited neighbour.
 CodedOrder depth_first_order(const CornerTable& table);
 
-// Walk that prefers faces whose three vertices are known, then faces whose unknown vertex is next
-// to several visited faces, because several predictions can be averaged there.
+// Walk that visits faces with three known vertices first. Next come faces whose unknown vertex
+// adjoins several visited faces, because several predictions of that vertex can be averaged.
 CodedOrder prediction_degree_order(const CornerTable& table);
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connectivity of the base mesh while it is read: a corner table with open boundaries. Corners are
-// numbered as in codec/mesh/connectivity.h. Internal to codec/base.
+// numbered as in codec/mesh/connectivity.h: face f has the corners 3f to 3f + 2. Internal to
+// codec/base.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ namespace vitrine::inline codec {
 
 struct CornerTable {
   std::vector<VertexId> vertex;  // per corner: its vertex
-  std::vector<Corner> opposite;  // per corner; kNoCorner if its opposite edge is at the boundary
-  // per vertex: one of its corners; at the boundary, the last one counter-clockwise
+  std::vector<Corner> opposite;  // per corner: the corner across its opposite edge, or kNoCorner
+  // per vertex: one of its corners; for a boundary vertex, its last corner counter-clockwise
   std::vector<Corner> leftmost;
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(leftmost.size()); }

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint8_t kStandard = 0;  // variant of the edgebreaker method
 
-// How a face adjoins the part of the surface that is already built (the symbols of [Rossignac99]).
+// How a new face adjoins the part of the surface that is already built: the symbols of
+// [Rossignac99].
 enum Symbol : std::uint32_t { kC = 0, kS = 1, kL = 3, kR = 5, kE = 7 };
 
 // A boundary edge of the face `source` to which a later face, `join`, is glued. `join` has the
@@ -66,7 +67,7 @@ class FaceBuilder {
     table_.vertex[c] = vertices_++;
     return true;
   }
-  // Returns the corner opposite to the boundary edge that leaves the vertex of c.
+  // Returns the corner opposite to the boundary edge that starts at the vertex of c.
   Corner boundary_at(Corner c) const {
     const Corner left = table_.leftmost[table_.vertex[c]];
     return left == kNoCorner ? kNoCorner : next(left);
@@ -76,7 +77,7 @@ class FaceBuilder {
   std::vector<Corner> active_;  // per part: the corner opposite to its active edge
   std::vector<VertexId> removed_;
   std::vector<LateEdge> late_;       // in ascending order of `source`; used from the end
-  std::vector<Corner> late_corner_;  // per symbol S: the corner opposite to its late edge
+  std::vector<Corner> late_corner_;  // per symbol S: the corner opposite to its LateEdge
   std::uint32_t symbols_, faces_ = 0, vertices_ = 0;
 };
 
@@ -150,7 +151,7 @@ bool FaceBuilder::fill(Corner x) {
 }
 
 // Symbol S: adds a face between the active edges of two parts, or between an active edge and a late
-// edge. Merges one end of the one edge with one end of the other.
+// edge. Merges one end of the first edge with one end of the second edge.
 bool FaceBuilder::join(Corner x) {
   const Corner b = active_.back();
   active_.pop_back();
@@ -192,8 +193,8 @@ bool FaceBuilder::keep_late_edges() {
   return true;
 }
 
-// Each part began at a boundary edge or at an inner face. An inner face has no symbol. It fills the
-// last hole of its part, which has three edges.
+// Adds the faces at which parts began. A part began at a boundary edge or at an inner face. An
+// inner face has no symbol. It fills the last hole of its part, which has three edges.
 bool FaceBuilder::add_first_faces(RansBits& is_inner) {
   for (; !active_.empty(); active_.pop_back()) {
     if (!is_inner.next()) continue;
@@ -227,9 +228,9 @@ bool FaceBuilder::number_vertices(bool has_attributes) {
   return std::find(table_.vertex.begin(), table_.vertex.end(), kNoCorner) == table_.vertex.end();
 }
 
-// Returns the vertices that were not merged into others, in the order of Draco's points. With
-// attributes, the vertices behind a removed vertex move up. Without attributes, the last vertex
-// takes its place.
+// Returns the vertices that were not merged into others, in the order of Draco's points. If there
+// are attributes, later vertices move up into the place of a removed vertex. If not, the last
+// vertex takes this place.
 std::vector<VertexId> FaceBuilder::numbered(bool has_attributes) const {
   std::vector<VertexId> at;
   for (VertexId v = 0; v < vertices_; ++v) {
@@ -246,8 +247,8 @@ std::vector<VertexId> FaceBuilder::numbered(bool has_attributes) const {
   return at;
 }
 
-// Whether an attribute has no seam. A seam is an edge at whose ends its two faces have different
-// values of the attribute.
+// Whether an attribute has no seam. A seam is an edge whose two faces have different values of the
+// attribute at an end of the edge.
 bool is_seamless(const CornerTable& table, RansBits is_seam) {
   for (Corner c = 0; c < table.vertex.size(); ++c) {
     const Corner across = table.opposite[c];

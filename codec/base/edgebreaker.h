@@ -17,11 +17,11 @@ struct BaseCounts {
 };
 
 // Reads the connectivity section of a Draco buffer, and leaves `in` at the end of the section.
-// Vertices have the numbers of Draco's points. Fails (kBadInput) if the section is damaged or if
-// its counts differ from `counts`. Fails (kUnsupported) if it has seams or uses a variant of the
-// method that this codec's encoder never uses. The table is a valid mesh only if
-// Connectivity::close accepts its faces; otherwise only its indices are in range. Allocates at most
-// 700 bytes per byte of `in`.
+// Vertices are numbered like Draco's points. Fails (kBadInput) if the section is damaged or if its
+// counts differ from `counts`. Fails (kUnsupported) if it has seams or uses a variant of the method
+// that this codec's encoder never uses. Checks only that the indices in the table are in range;
+// Connectivity::close checks that the faces form a valid mesh. Allocates at most 700 bytes per byte
+// of `in`.
 Expected<CornerTable> read_connectivity(ByteReader& in, const BaseCounts& counts);
 
 }  // namespace vitrine::inline codec

@@ -14,7 +14,7 @@
 namespace vitrine::inline codec {
 
 // Reads a length, which is a varint of up to 64 bits, and then that number of bytes. If fewer bytes
-// are left, returns an empty span, and `in` is not ok.
+// are left, returns an empty span and makes in.is_ok() false.
 std::span<const std::uint8_t> read_sized(ByteReader& in);
 
 // The state of a range asymmetric numeral system decoder. It reads its data from the last byte to

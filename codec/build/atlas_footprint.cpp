@@ -18,12 +18,12 @@
 namespace vitrine::inline codec {
 namespace {
 
-// The unit of coordinates is first chosen as if charts covered this share of the picture. If they
-// cover less, the unit is chosen again.
+// Expected share of the picture that the charts cover. The first scale to try follows from it. If
+// the charts do not fit at that scale, smaller scales are tried.
 constexpr double kCoverage = 0.4;
-constexpr double kGutter = 1.0 / 256;  // least distance of charts, as a share of the picture's side
+constexpr double kGutter = 1.0 / 256;       // least distance between charts, as a share of the side
 constexpr std::size_t kMostFaces = 20'000;  // a base mesh with more faces gets no atlas
-// least expected side of the picture, as a share of kMaxAtlasSide
+// smallest expected side of the picture, as a share of kMaxAtlasSide
 constexpr double kLeastSide = 0.8;
 
 // A face of one level, in the coordinates of the picture.
@@ -78,9 +78,9 @@ double first_scale(const Atlas& atlas) {
          std::min(std::sqrt(kCoverage / std::max(area_of(atlas), 1e-9)), 0.8 / longest);
 }
 
-// Returns the coordinates with `scale` units per unit of length. Each chart lies in the middle of
-// the range of coordinates. Charts can be moved later, because prediction depends only on
-// differences of coordinates within a chart.
+// Returns the coordinates with `scale` units per unit of length. Places each chart in the middle of
+// the range of coordinates. Charts can be moved later, because the decoder's prediction depends
+// only on differences of coordinates within a chart.
 SnappedCoordinates in_middle(const Atlas& atlas, double scale) {
   const ChartBoxes boxes = boxes_of(atlas);
   constexpr double kMiddle = kMaxAtlasSide * 0.5;
@@ -121,8 +121,9 @@ Expected<Refiner> refine_flat(const EncodedModel& model, const BaseMesh& base,
   return refiner;
 }
 
-// Returns the chart of `atlas` to which each wedge belongs at full resolution. Base wedges keep
-// their numbers in all levels, so the smallest wedge of a chart is a base wedge.
+// Returns the chart of `atlas` to which each wedge belongs at full resolution. Wedges of the base
+// mesh keep their numbers in all levels, so the lowest wedge number in a chart is that of a base
+// wedge.
 std::vector<std::uint32_t> charts_at_full(const Refiner& refiner, const Atlas& atlas) {
   std::vector<std::uint32_t> charts = charts_of(refiner);
   for (std::uint32_t& chart : charts)
@@ -146,12 +147,12 @@ std::vector<ChartTriangles> footprints(const std::vector<FlatFace>& faces,
 
 // The final places of the charts: the move of each chart, and the side of the picture.
 struct ChartPlaces {
-  std::vector<Vec2i> moves;  // multiples of the step of coordinates
+  std::vector<Vec2i> moves;  // multiples of the coordinates' step
   double side;
 };
 
-// Packs the charts. Charts are moved by whole steps, which can bring two charts nearer by one step,
-// so the gutter is enlarged by one step.
+// Packs the charts. Moves are rounded to whole steps, which can bring two charts closer by one
+// step. The gutter is therefore one step wider.
 ChartPlaces places_of(const std::vector<ChartTriangles>& charts, std::int32_t step) {
   const Packing packing = pack(charts, kGutter + step / (kLeastSide * kMaxAtlasSide));
   ChartPlaces out{.moves = {}, .side = std::ceil(1 / packing.scale) + step};

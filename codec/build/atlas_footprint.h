@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Follows the texture coordinates of a model from its base mesh to full resolution, and packs the
-// charts so that they fit at every level.
+// Follows the texture coordinates of a model from its base mesh to full resolution. Packs the
+// charts so that they do not overlap at any level.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace vitrine::inline codec {
 struct PlacedAtlas {
   BaseAtlas base;          // base mesh's atlas, with final coordinates
   std::uint32_t side = 0;  // width and height of the picture, in units of texture coordinates
-  // The faces at full resolution: ids of their vertices in the hierarchy, and coordinates of their
-  // corners.
+  // The faces at full resolution: the ids of their vertices in the hierarchy
+  // (EncodedModel::fine_ids), and the texture coordinates of their corners.
   std::vector<Triangle> faces;
   std::vector<std::array<Vec2i, 3>> coordinates;
 };

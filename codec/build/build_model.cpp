@@ -11,6 +11,9 @@
 #include "codec/build/level_errors.h"
 #include "codec/build/model_encoder.h"
 #include "codec/build/texture_model.h"
+#include "codec/core/linear_colour.h"
+#include "codec/mesh/plain_material.h"
+#include "codec/repair/raw_mesh.h"
 #include "codec/repair/repair.h"
 #include "codec/simplify/order_in_space.h"
 #include "codec/simplify/simplify.h"
@@ -54,24 +57,24 @@ int automatic_bits(const TriangleMesh& mesh) {
   return bits;
 }
 
-// Fractions of a build's time at which reading, simplification and encoding end, from measurements.
-// They convert the progress of a stage to the progress of the whole build.
+// Measured fractions of the build time at which reading, simplification and encoding end. They
+// convert the progress of a stage to the progress of the whole build.
 constexpr double kRead = 0.02, kSimplified = 0.3, kEncoded = 0.99;
-// Share of the encoding time that is the same for every level. The rest of a level's time is
+// Share of the encoding time that is the same for every level. The other part of a level's time is
 // proportional to the number of vertices that the level adds.
 constexpr double kPerLevel = 0.27;
 
-// Returns the size of a base mesh on which a display atlas is drawn: half a percent of the
-// vertices, clamped to the range from 300 to 1,500. On a coarser mesh, the sizes of texels in fine
-// levels would vary more (codec/simplify/TEXTURES.md).
+// Returns the number of vertices of the base mesh of a textured model: half a percent of all
+// vertices, clamped to the range from 300 to 1,500. With a coarser base mesh, the sizes of texels
+// in fine levels would vary more (codec/simplify/TEXTURES.md).
 std::uint32_t textured_base_vertices(std::size_t vertices) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(vertices / 200, 300, 1500));
 }
 
 SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& options,
                                  bool is_textured, const ProgressReport& progress) {
-  // A model this small gets one region. A second region costs bytes, and a viewer that omits one of
-  // two regions saves few bytes.
+  // A model this small gets one region. Two regions would cost more bytes, and a viewer that skips
+  // one of them would save few bytes.
   const bool few = fine.positions.size() <= 2 * std::size_t{options.region_vertices};
   SimplifyOptions how{.placement = options.placement,
                       .order = options.order,
@@ -103,7 +106,8 @@ Expected<EncodedModel> encode(Hierarchy hierarchy, TriangleMesh original, unsign
   return model;
 }
 
-// Returns why the textures of a mesh are left out, or an empty text if they are kept.
+// Returns the reason why the textures of a mesh are left out, or an empty text if the model gets
+// them.
 std::string_view reason_against(const Texturing& texturing, std::uint64_t components) {
   // All components of a textured model are in its base mesh. More components would make the head of
   // the file too large.
@@ -113,20 +117,45 @@ std::string_view reason_against(const Texturing& texturing, std::uint64_t compon
     for_each_map(material, [&](const TextureMap&) { any = true; });
     return any;
   };
-  if (std::ranges::none_of(texturing.materials, has_map)) return "no material has a picture";
+  if (std::ranges::none_of(texturing.materials, has_map))
+    return "no material uses a picture; assign the pictures";
   if (components > kMostComponents) return "the mesh has over 2000 components; join them";
   return {};
 }
 
-// Decides whether the model gets a texture. If not, clears `texturing`, and adds a note if a
-// picture is lost. The vertex colours stay.
+// Adds a line for each property of the materials, except colour, that is lost because no material
+// has a picture.
+void report_materials(const Texturing& texturing, std::vector<std::string>& lines) {
+  const auto report = [&](const char* what, bool (*has)(const Material&)) {
+    const auto count = std::ranges::count_if(texturing.materials, has);
+    if (count == 0) return;
+    lines.push_back(what + counted(static_cast<std::uint64_t>(count), "material") +
+                    " not carried: no material has a picture; give the materials a texture map");
+  };
+  report("opacity of ", [](const Material& material) {
+    return material.alpha_mode == AlphaMode::kBlend && material.base_colour[3] < 1;
+  });
+  report("metalness of ", [](const Material& material) { return material.metallic > 0; });
+  report("roughness of ", [](const Material& material) { return !has_plain_roughness(material); });
+  report("emission of ", [](const Material& material) {
+    const auto& [r, g, b, opacity] = material.base_colour;
+    // A black material has given its emission to the vertex colours.
+    const bool is_black = to_srgb({r, g, b}) == Colour{0, 0, 0};
+    return material.emission != Vec3{} && !is_black;
+  });
+}
+
+// Decides whether the model gets a texture. If not, clears `texturing` and adds a note about the
+// loss. The vertex colours stay.
 void choose_texture(Texturing& texturing, BuildReport::Input& input) {
   if (texturing.empty()) return;
   const std::string_view reason = reason_against(texturing, input.components);
   if (reason.empty()) return;
-  if (!texturing.pictures.empty()) {
-    input.repairs.push_back("textures left out: " + std::string(reason));
-  }
+  if (texturing.pictures.empty())
+    report_materials(texturing, input.repairs);
+  else
+    input.repairs.push_back(counted(texturing.pictures.size(), "texture") +
+                            " left out: " + std::string(reason));
   texturing = {};
 }
 
@@ -135,12 +164,14 @@ void choose_texture(Texturing& texturing, BuildReport::Input& input) {
 void add_texture(const TriangleMesh& mesh, Texturing texturing, EncodedModel& model,
                  std::vector<std::string>& notes) {
   if (texturing.empty()) return;
+  const std::string pictures = counted(texturing.pictures.size(), "texture");
   const auto more = texture_model(mesh, std::move(texturing), model);
   if (more) notes.insert(notes.end(), more->begin(), more->end());
-  if (!more) notes.push_back("textures left out: " + more.error().message);
+  if (!more) notes.push_back(pictures + " left out: " + more.error().message);
 }
 
-// Reorders `texturing` for a mesh whose face i was face before[i] of the old mesh.
+// Reorders `texturing` after the faces of its mesh were reordered. Face before[i] has become face
+// i.
 Texturing in_order(Texturing texturing, const std::vector<std::uint32_t>& before) {
   const auto reorder = [&](auto& per_face) {
     if (per_face.empty()) return;
@@ -155,8 +186,8 @@ Texturing in_order(Texturing texturing, const std::vector<std::uint32_t>& before
   return texturing;
 }
 
-// Lets the kernel drop the pages of a memory-mapped file that has been read. The call is harmless
-// for memory of other kinds.
+// Lets the kernel drop the pages of a memory-mapped file that has been read. For other kinds of
+// memory, the call is harmless.
 void let_go(std::span<const std::uint8_t> input) {
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const auto begin = reinterpret_cast<std::uintptr_t>(input.data()) / page * page;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the bytes of a `.pmesh` from those of a mesh file: reads, repairs, quantises, simplifies,
-// encodes and measures the mesh. Accesses no files and starts no process, so it can run in a
-// sandboxed child process.
+// Builds the bytes of a `.pmesh` from the bytes of a mesh file: reads, repairs, quantises,
+// simplifies, encodes and measures the mesh. Accesses no files and starts no processes, so it can
+// run in a sandboxed child process.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@
 
 namespace vitrine::inline codec {
 
-// Default size of a region, in vertices. Slightly less than half of a level's vertices are new.
-// Each new vertex takes one to two bytes in the finest level. A chunk of the finest level therefore
-// has 10 to 30 KB.
+// Default size of a region, in vertices. In each level, slightly less than half of the vertices are
+// new. Each new vertex takes one to two bytes in the finest level. A chunk of the finest level
+// therefore has 10 to 30 KB.
 inline constexpr std::uint32_t kRegionVertices = 30'000;
 
 struct BuildOptions {
@@ -57,8 +57,8 @@ struct BuildResult {
 };
 
 // Builds a model from the bytes of a mesh file. `progress` receives the stages "read", "simplify",
-// "encode" and "write". Fails (kBadInput, kUnsupported, kLimit) with the error of the reader or of
-// the repair.
+// "encode" and "write". Fails with the error of read_mesh() or repair() (kBadInput, kUnsupported or
+// kLimit).
 Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const BuildOptions& options,
                                   const ProgressReport& progress = {});
 

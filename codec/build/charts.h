@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The charts of a texture: sets of faces that are joined by edges without a seam.
+// The charts of a texture: sets of faces that are connected across edges that are not seams.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace vitrine::inline codec {
 
-// Returns the chart of each wedge. The smallest wedge of a chart identifies the chart. Returns an
-// empty list if `refiner` has no texture coordinates.
+// Returns the chart of each wedge. A chart is identified by the lowest wedge number in it. Returns
+// an empty list if `refiner` has no texture coordinates.
 std::vector<WedgeId> charts_of(const Refiner& refiner);
 
 // Returns the number of charts, 0 if `refiner` has no texture coordinates.

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kFaces = 1000;
 // Share of the fitted strength that is used. The fit considers only the centroids of faces. Corners
-// move farther than centroids, so the full strength would be too much. In measurements, this share
-// gave about the smallest rms error.
+// move farther than centroids, so the full strength would be too much. In measurements, a share of
+// about 0.8 gave the smallest rms error.
 constexpr double kShare = 0.8;
 
 // Fits the factor `a` in offset = a * shift by least squares. `offset` is the signed distance from
@@ -29,7 +29,7 @@ struct Fit {
 
 class FaceSampler {
  public:
-  FaceSampler(const MeshState& level, const Lattice& lattice, const TriangleBvh& original)
+  FaceSampler(const MeshState& level, const Lattice& lattice, const WitnessSurface& original)
       : level_(level), lattice_(lattice), original_(original) {}
 
   void add_face(std::uint32_t face, Fit& fit) {
@@ -50,7 +50,8 @@ class FaceSampler {
   }
 
  private:
-  // Faces share vertices, and the ring of one vertex may be as large as the mesh.
+  // Computes each shift only once: faces share vertices, and a vertex may have as many neighbours
+  // as the mesh has vertices.
   Vec3 shift_of(VertexId v) {
     const auto [known, is_new] = shifts_.try_emplace(v);
     if (is_new) known->second = display_shift(level_, v);
@@ -59,17 +60,15 @@ class FaceSampler {
 
   void add_point(const Vec3& p, const Vec3& shift, const Vec3& normal, double weight, Fit& fit) {
     const Vec3 model = lattice_.origin + p * lattice_.step;
-    const double bound = squared_distance(original_.triangle(nearest_), model);
-    const ClosestTriangle hit = original_.closest(model, {bound, nearest_});
-    nearest_ = hit.triangle;
-    const Vec3 nearest = closest_point(original_.triangle(hit.triangle), model);
+    nearest_ = original_.closest(model, nearest_).triangle;
+    const Vec3 nearest = closest_point(original_.triangle(nearest_), model);
     const double offset = dot(nearest - model, normal) * (1 / lattice_.step);
     fit.add(offset, dot(shift, normal), weight);
   }
 
   const MeshState& level_;
   const Lattice& lattice_;
-  const TriangleBvh& original_;
+  const WitnessSurface& original_;
   std::unordered_map<VertexId, Vec3> shifts_;  // results of display_shift()
   std::uint32_t nearest_ = 0;  // the original's triangle nearest to the previous point
 };
@@ -77,7 +76,7 @@ class FaceSampler {
 }  // namespace
 
 double fit_display_filter(const MeshState& level, const Lattice& lattice,
-                          const TriangleBvh& original) {
+                          const WitnessSurface& original) {
   FaceSampler sampler(level, lattice, original);
   const std::uint32_t faces = level.connectivity.face_count();
   const std::uint32_t stride = static_cast<std::uint32_t>(faces / kFaces + 1);

@@ -20,14 +20,15 @@ namespace vitrine::inline codec {
 // stay valid until the next call.
 using PictureReader = std::function<Expected<std::span<const std::uint8_t>>(std::size_t i)>;
 
-using PictureRoles = std::bitset<kPictureRoles>;  // bit i stands for PictureRole i
+using PictureRoles = std::bitset<kPictureRoles>;  // bit i is set if PictureRole i is included
 
 // Returns the numbers of the pictures to export, one for each role of `roles` that the texture has.
+// The list is empty if the texture has none of these roles.
+//
 // If `most_side` is set, chooses the largest picture with at most that many pixels per side, or the
-// smallest picture if all are larger; a `most_side` of 0 chooses no picture. If `most_side` is not
-// set, chooses the smallest picture with at least 16 pixels per face of a mesh with `faces` faces,
-// or the largest picture at full resolution. Returns an empty list if the model has no such
-// picture.
+// smallest picture if all are larger. A `most_side` of 0 gives an empty list. If `most_side` is not
+// set, chooses the smallest picture with at least 16 pixels per face of the exported mesh, which
+// has `faces` faces. At full resolution, chooses the largest picture.
 std::vector<std::size_t> pictures_to_export(const Manifest& manifest, std::uint64_t faces,
                                             std::optional<std::uint32_t> most_side,
                                             PictureRoles roles = PictureRoles().set());

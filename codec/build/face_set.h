@@ -15,7 +15,7 @@ namespace vitrine::inline codec {
 
 // The position and attributes of a face's corner. A FaceKey holds the three corners of a face,
 // rotated to the lexicographically smallest order. Rotation keeps the orientation. All three
-// rotations are compared, because corners of a face without area may be equal.
+// rotations are compared, because a face without area may have equal corners.
 struct FaceCorner {
   Vec3i position;
   VertexAttributes::Row attributes;
@@ -53,8 +53,8 @@ struct SourceFaceKey {
   auto operator<=>(const SourceFaceKey&) const = default;
 };
 
-// Like face_set(), with material and texture coordinates instead of attributes. `texturing` belongs
-// to the faces of `mesh`.
+// Like face_set(), with material and texture coordinates instead of attributes. `texturing`
+// describes the faces of `mesh`.
 std::vector<SourceFaceKey> source_face_set(const LatticeMesh& mesh, const Texturing& texturing);
 
 }  // namespace vitrine::inline codec

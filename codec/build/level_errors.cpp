@@ -11,9 +11,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Raises the chunk's error bound to cover faces between the chunk's region and a neighbour region
-// that is one level finer. The coarser region's corners of such a face still lack the low bits of
-// their positions, which arrive with that region's next chunk.
+// Raises the chunk's error bound for faces between the chunk's region and a neighbour region that
+// is one level finer. The corners of these faces that lie in the chunk's region still lack the low
+// bits of their positions. These bits arrive with the region's next chunk.
 void allow_for_finer_neighbours(ChunkInfo& chunk, const Manifest& manifest) {
   const std::uint32_t finer = chunk.level + 1;
   if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
@@ -97,8 +97,8 @@ TriangleMesh LevelErrors::displayed(const MeshState& level, double filter) const
   return mesh;
 }
 
-// Returns, for each leaf, the index of the current level's region that contains the leaf. Adds the
-// number of these regions to `count`.
+// Returns, for each leaf of the region tree, the index of the current level's region that contains
+// the leaf. Adds the number of these regions to `count`.
 std::vector<std::uint16_t> LevelErrors::number_regions(std::uint32_t& count) const {
   std::vector<std::uint16_t> of_leaf(tree_.leaves());
   for (const std::uint32_t node :
@@ -110,7 +110,8 @@ std::vector<std::uint16_t> LevelErrors::number_regions(std::uint32_t& count) con
 }
 
 // Returns the regions of the level's vertices and of the original's vertices. Both lists are empty
-// if the level has only one region. `leaves` holds the leaf of each vertex of the level.
+// if the level has only one region. `leaves` holds the region tree leaf of each vertex of the
+// level.
 LevelRegions LevelErrors::regions_of(std::vector<std::uint16_t> leaves) const {
   LevelRegions out{.of_level = std::move(leaves), .of_original = leaf_, .count = 0};
   const auto of_leaf = number_regions(out.count);

@@ -22,8 +22,8 @@ class LevelErrors {
   // units. Uses at most `threads` (>= 1) threads, one of which is the caller's.
   LevelErrors(TriangleMesh original, const Hierarchy& hierarchy, unsigned threads);
 
-  // Adds the next level. Levels must be added from coarse to fine. `is_last` marks full resolution,
-  // which is displayed without a filter: it is the original rounded to the lattice.
+  // Adds the next level. Levels must be added from coarse to fine. `is_last` marks full resolution.
+  // It is displayed without a filter, because it is the original rounded to the lattice.
   void add(const MeshState& level, bool is_last);
 
   // Waits for all levels and writes their errors and filters to `manifest`.

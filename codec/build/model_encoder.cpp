@@ -26,8 +26,8 @@ void add_level(const MeshState& level, Manifest& manifest) {
 }
 
 // Enlarges the bounding box of each region of `level` to include all faces at the region's
-// vertices. A face between two regions is in the boxes of both regions. The boxes are therefore
-// valid for every order in which regions are refined.
+// vertices. A face between two regions enlarges the boxes of both. The boxes are therefore valid
+// for every order in which regions are refined.
 void add_to_boxes(const MeshState& mesh, std::uint32_t level, RegionTree& tree) {
   std::vector<LatticeBox*> box(tree.leaves(), nullptr);
   for (const std::uint32_t node : tree.regions_at(level))

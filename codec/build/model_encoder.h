@@ -19,15 +19,15 @@ struct EncodedModel {
   // The file after its header: base mesh, then chunks in level order.
   std::vector<std::uint8_t> body;
   BaseMesh base;                   // the base mesh as a decoder reconstructs it
-  std::vector<VertexId> fine_ids;  // per vertex at full resolution: its id in the hierarchy
+  std::vector<VertexId> fine_ids;  // per vertex at full resolution: its vertex id in the hierarchy
 };
 
 // Callback that receives each level, from the base mesh to the finest level. `level` equals the
 // state that a decoder reaches.
 using LevelSink = std::function<void(const MeshState& level)>;
 
-// Encodes all levels of `hierarchy` and calls `on_level` for each. Frees a level's collapses before
-// that call. Fails (kBadInput) if Draco cannot encode the base mesh.
+// Encodes all levels of `hierarchy` and calls `on_level` for each. Frees the memory of a level's
+// collapses before the call for this level. Fails (kBadInput) if Draco cannot encode the base mesh.
 Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LevelSink& on_level);
 
 }  // namespace vitrine::inline codec

@@ -14,8 +14,8 @@ namespace vitrine::inline codec {
 // parse_header(), or with kBadInput if the base mesh or the atlas is damaged. Safe on any bytes.
 Expected<Refiner> open_model(std::span<const std::uint8_t> pmesh);
 
-// Returns a function that returns chunks of `pmesh` after checking their SHA-256. Both arguments
-// must outlive the function.
+// Returns a function that reads chunks of `pmesh` and checks their SHA-256. Both arguments must
+// outlive the function.
 ChunkReader chunks_of(const Manifest& manifest, std::span<const std::uint8_t> pmesh);
 
 // Returns the bytes of the i-th picture of the texture, after checking their SHA-256. Fails
@@ -24,7 +24,7 @@ Expected<std::span<const std::uint8_t>> picture_of(const Manifest& manifest,
                                                    std::span<const std::uint8_t> pmesh,
                                                    std::size_t i);
 
-// Returns the bytes of an optional block, like picture_of().
+// Returns the bytes of an optional block, after checking their SHA-256. Fails like picture_of().
 Expected<std::span<const std::uint8_t>> optional_block(const OptionalBlock& block,
                                                        std::span<const std::uint8_t> pmesh);
 

@@ -16,7 +16,7 @@ Unexpected damaged() {
   return fail(ErrorCode::kBadInput, "the originals are damaged; fetch the file again");
 }
 
-// Returns a bit for each set of coordinates that the texturing has.
+// Returns a bit mask of the sets of coordinates that the texturing has.
 std::uint8_t sets_of(const Texturing& texturing) {
   std::uint8_t sets = 0;
   for (std::size_t set = 0; set < kCoordinateSets; ++set)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The originals of a texture: exact copies of the source's materials, texture coordinates and
-// pictures. They are optional blocks at the end of a file (codec/FORMAT.md section 8.6). Viewers do
-// not need them.
+// The originals of a texture: exact copies of the materials, texture coordinates and pictures of
+// the source mesh. They are optional blocks at the end of a file (codec/FORMAT.md section 8.6).
+// Viewers do not need them.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@
 namespace vitrine::inline codec {
 
 // Adds the originals to the end of a file. `faces` are the faces at full resolution, in the order
-// of a refiner to which all chunks were applied in file order. They have `vertices` vertices,
-// numbered in any order. `texturing` belongs to `faces`. `body` is the file after its header.
-// Returns false and leaves the file unchanged if the source has too many pictures
+// in which a Refiner has them after applying all chunks in file order. They have `vertices`
+// vertices, numbered in any order. `texturing` describes these faces. `body` is the file after its
+// header. Returns false and leaves the file unchanged if the source has too many pictures
 // (kMaxOptionalBlocks).
 bool add_originals(std::span<const Triangle> faces, std::uint32_t vertices,
                    const Texturing& texturing, Manifest& manifest, std::vector<std::uint8_t>& body);
@@ -36,7 +36,7 @@ std::uint64_t originals_bytes(const Manifest& manifest);
 Expected<Texturing> originals_of(const Refiner& refiner, std::span<const std::uint8_t> pmesh);
 
 // Whether both texturings have identical materials, pictures and picture names. Does not compare
-// faces; source_face_set() serves that purpose.
+// faces; use source_face_set() for this.
 bool have_same_materials(const Texturing& a, const Texturing& b);
 
 }  // namespace vitrine::inline codec

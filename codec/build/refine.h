@@ -14,17 +14,17 @@ namespace vitrine::inline codec {
 // Returns the bytes of the manifest's chunk number `chunk`, after checking their SHA-256.
 using ChunkReader = std::function<Expected<std::span<const std::uint8_t>>(std::size_t chunk)>;
 
-// Applies the chunks that the planner chooses for `want`, in the planner's order. If `want` is a
-// WantTriangles, also undoes the last splits that exceed the requested number of triangles. Fails
-// with the error of `read` or of Refiner::apply().
+// Applies the chunks that the planner chooses for the detail target `want`, in the planner's order.
+// If `want` is a WantTriangles, then undoes the last splits that exceed the requested number of
+// triangles. Fails with the error of `read` or of Refiner::apply().
 Expected<void> refine(Refiner& refiner, const Want& want, const ChunkReader& read);
 
 // The detail that a refiner shows.
 struct ShownDetail {
   std::uint32_t level = 0;  // the finest complete level
   double error = 0;         // upper bound of the error of that level, in model units
-  // The lattice on which vertices lie if the display filter is off, in model units: the points
-  // grid_origin + grid_step * integer. They are the middles of the cells of the finest level that
+  // The lattice on which the vertices lie if the display filter is off, in model units: the points
+  // grid_origin + grid_step * integer. These are the centres of the cells of the finest level that
   // is shown at least in part.
   Vec3 grid_origin;
   double grid_step = 1;

@@ -8,11 +8,11 @@
 namespace vitrine::inline codec {
 namespace {
 
-// An edge of mean length has at least this many steps of the lattice.
+// Minimum number of lattice steps per edge of mean length.
 constexpr double kStepsPerEdge = 32;
 // Largest step in coordinate units: a quarter of the least distance between charts.
 constexpr std::int32_t kLargestStep = 1024;
-// Smallest accepted ratio of the smaller to the larger of a face's areas before and after rounding.
+// Smallest accepted quality() of a face.
 constexpr double kGood = 0.5;
 constexpr int kMendingSweeps = 8;
 constexpr std::int32_t kReach = 2;  // how far mend() moves a wedge along each axis, in steps
@@ -26,7 +26,7 @@ double mean_edge(std::span<const Triangle> faces, std::span<const Vec2> at) {
   return faces.empty() ? 0 : sum / static_cast<double>(3 * faces.size());
 }
 
-// Rounds coordinates to the lattice of one step.
+// Rounds coordinates to the lattice with a given step.
 class Snapping {
  public:
   Snapping(std::span<const Triangle> faces, std::span<const Vec2> exact, std::int32_t step)
@@ -39,9 +39,8 @@ class Snapping {
     }
   }
 
-  // Moves wedges until every face has a quality() of at least kGood. Returns false if that fails. A
-  // coarser lattice without this bound made the charts of one scan fill almost none of their
-  // square.
+  // Moves wedges until every face has a quality() of at least kGood. Returns false if that fails.
+  // On one scan, a coarser lattice without this bound left the packed picture almost empty.
   bool mend() {
     for (int sweep = 0; sweep < kMendingSweeps; ++sweep) {
       bool is_good = true;
@@ -63,9 +62,9 @@ class Snapping {
             static_cast<std::int32_t>(std::lround(p.y / step_)) * step_};
   }
 
-  // Returns the ratio of the smaller to the larger of a face's areas before and after rounding. The
-  // result is not positive if rounding has flipped the face. Returns 1 for a face that was flipped
-  // before rounding.
+  // Compares a face's area before rounding with its area after rounding: returns the smaller
+  // divided by the larger. The result is not positive if rounding has flipped the face. Returns 1
+  // for a face that was flipped before rounding.
   double quality(std::size_t f) const {
     const auto& [a, b, c] = faces_[f];
     const double before = cross(exact_[b] - exact_[a], exact_[c] - exact_[a]);

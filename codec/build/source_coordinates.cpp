@@ -20,14 +20,14 @@ bool are_same_bits(const TextureCoordinates& a, const TextureCoordinates& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-// Maps the bits of a float to an integer such that integers compare as the floats do. The map is
-// its own inverse.
+// Maps the bits of a float to an integer that preserves the order of floats. The map is its own
+// inverse.
 std::uint32_t in_order(std::uint32_t bits) {
   return (bits & 0x8000'0000u) != 0 ? bits ^ 0x7FFF'FFFFu : bits;
 }
 
-// Codes a float, given a prediction: codes the difference of the integers that in_order() returns
-// for both.
+// Codes a float, given a prediction. Maps the float and the prediction to integers by in_order()
+// and codes the difference of the integers.
 class FloatModel {
  public:
   template <class Coder>
@@ -80,7 +80,7 @@ float as_float(double x) {
 }
 
 // Encodes or decodes the texture coordinates of all faces. Encoder and decoder run the same pass
-// over the same mesh. An encoder reads the values from `texturing`; a decoder stores them there.
+// over the same mesh. An encoder reads the values from `texturing`; a decoder writes them to it.
 template <class Coder>
 class SourcePass {
  public:
@@ -106,8 +106,8 @@ class SourcePass {
   }
 
  private:
-  // Codes the face of corner c and then, in breadth-first order, all faces connected with it across
-  // edges.
+  // Codes the face of corner c and then, in breadth-first order, all faces that are connected with
+  // it across edges.
   bool code_from(Corner c) {
     queue_ = {c};
     is_queued_[c / 3] = true;
@@ -159,9 +159,9 @@ class SourcePass {
     return std::isfinite(value[0]) && std::isfinite(value[1]);
   }
 
-  // Codes whether the corner c has the same coordinates as one of three candidates, and which. The
-  // candidates are already coded corners at the same vertex: those in the faces across the two
-  // edges at c, and the corner coded last at this vertex.
+  // Codes whether the corner c has the same coordinates as one of three candidates, and as which
+  // one. The candidates are already coded corners at the same vertex: two in the faces across the
+  // two edges at c, and the corner coded last at this vertex.
   std::optional<TextureCoordinates> code_candidate(std::size_t set, Corner c) {
     const std::array<Corner, 3> candidates = {at_vertex(next(c), true), at_vertex(prev(c), false),
                                               last_at_[set][mesh_.vertex(c)]};
@@ -180,17 +180,18 @@ class SourcePass {
     return std::nullopt;
   }
 
-  // Returns the corner at the same vertex in the face across the edge opposite to `other`, a corner
-  // of the same face. `is_next` says whether `other` is the next corner. Returns kNoCorner if that
-  // face is not coded yet.
+  // Returns the corner that a neighbouring face has at the vertex of a corner c. The neighbour lies
+  // across the edge opposite to `other`, which is next(c) if `is_next`, else prev(c). Returns
+  // kNoCorner if the neighbour is not coded yet.
   Corner at_vertex(Corner other, bool is_next) const {
     const Corner across = mesh_.opposite(other);
     if (!is_coded(across)) return kNoCorner;
     return is_next ? next(across) : prev(across);
   }
 
-  // Returns the coordinates of the fourth corner of a parallelogram. Its other three corners are
-  // those of the face of `tip`; the fourth is mirrored across the edge opposite to `tip`.
+  // Predicts the coordinates of corner `tip` as the fourth corner of a parallelogram. The other
+  // three are the two other corners of its face, and the corner opposite to `tip` in the face
+  // across their edge.
   TextureCoordinates across(std::size_t set, Corner tip) {
     const TextureCoordinates &a = at(set, next(tip)), &b = at(set, prev(tip)),
                              &opposite = at(set, mesh_.opposite(tip));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes and reads the materials of a source, and the names of its pictures (codec/FORMAT.md
+// Writes and reads the materials of a source mesh, and the names of its pictures (codec/FORMAT.md
 // section 8.6).
 #pragma once
 

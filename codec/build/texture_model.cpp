@@ -35,8 +35,8 @@ std::vector<FaceName> names_of(const std::vector<Triangle>& faces) {
   return names;
 }
 
-// A face of the second mesh that has the same vertices as a face of the first mesh. Corner k of the
-// first mesh's face is corner (`turns` + k) % 3 of this face.
+// The face of the mesh that has the same vertices as a face of the atlas. Corner k of the atlas's
+// face is corner (`turns` + k) % 3 of this face.
 struct SameFace {
   std::uint32_t face, turns;
 };
@@ -51,7 +51,7 @@ std::vector<SameFace> same_faces(const TriangleMesh& mesh, const PlacedAtlas& at
   return out;
 }
 
-// Returns the coordinates in `atlas` for each face of the mesh, in the mesh's order.
+// Returns the coordinates in `atlas` of each face of the mesh, in the mesh's order.
 std::vector<DisplayFace> display_faces(const PlacedAtlas& atlas, std::span<const SameFace> same) {
   std::vector<DisplayFace> out(same.size());
   for (std::size_t f = 0; f < same.size(); ++f) {
@@ -127,9 +127,9 @@ Expected<std::vector<std::string>> texture_model(const TriangleMesh& mesh, Textu
   model.body.insert(model.body.begin() + behind_base, head.begin(), head.end());
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
   if (!add_originals(atlas->faces, vertices, source, model.manifest, model.body)) {
-    baked->notes.emplace_back(
-        "the source's pictures and texture coordinates are not kept: too many "
-        "pictures; join them");
+    baked->notes.push_back("the source's " + std::to_string(source.pictures.size()) +
+                           " pictures and their texture coordinates are not kept: too many "
+                           "pictures; join them");
   }
   return std::move(baked->notes);
 }

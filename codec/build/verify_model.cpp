@@ -221,8 +221,8 @@ Expected<std::uint32_t> check_orders(ByteSpan pmesh, const Manifest& manifest,
   return 1 + kOrders;
 }
 
-// Whether the input has these faces and, if `originals` is not empty, these materials, texture
-// coordinates and pictures.
+// Whether the input has the same faces and, if `originals` is not empty, the same materials,
+// texture coordinates and pictures.
 Expected<bool> equals_input(const std::vector<FaceKey>& faces, const Refiner& refiner,
                             const Texturing& originals, const OriginalFile& input) {
   const Manifest& manifest = refiner.manifest();

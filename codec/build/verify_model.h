@@ -11,7 +11,7 @@
 
 namespace vitrine::inline codec {
 
-// The mesh file from which a model was built, and the options with which it was read.
+// The mesh file from which a model was built, and the options with which the file was read.
 struct OriginalFile {
   std::span<const std::uint8_t> bytes;
   ReadOptions reading = {};
@@ -22,7 +22,7 @@ struct Verification {
   std::uint64_t chunks = 0, vertices = 0, faces = 0;
   std::uint64_t pictures = 0;       // number of pictures in the texture
   bool has_originals = false;       // whether the originals of the texture are in the file
-  std::uint32_t orders = 0;         // refinement orders checked, including the one by level
+  std::uint32_t orders = 0;         // refinement orders checked, including the order by level
   std::optional<bool> is_lossless;  // nullopt if no original was given
 };
 
@@ -38,12 +38,12 @@ struct Verification {
 //   every corner has texture coordinates, and they are inside the picture.
 // - The originals of the texture can be decoded.
 // - If `input` is given: the finest level has the same faces as the repaired input rounded to the
-//   lattice. The originals, if there are any, equal its materials, texture coordinates and
-//   pictures.
+//   lattice. The originals, if the file has any, equal the input's materials, texture coordinates
+//   and pictures.
 //
 // Fails (kBadInput) at the first fault. A difference from `input` is not a fault; it sets
 // `is_lossless` to false. libwebp decodes the pictures and is not safe on hostile bytes: call this
-// in a sandbox for files from others.
+// in a sandbox for untrusted files.
 Expected<Verification> verify_model(std::span<const std::uint8_t> pmesh,
                                     const std::optional<OriginalFile>& input,
                                     const ProgressReport& progress);

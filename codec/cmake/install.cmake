@@ -4,11 +4,14 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(library_modules appearance atlas bake base build coding core distance export files format gltf import mesh package picture plan refine render repair simplify)
+# The library has all modules of the codec except the interface for the browser.
+vitrine_folders(codec folders)
+list(REMOVE_ITEM folders codec/wasm)
 add_library(vitrine_codec STATIC)
-foreach(module IN LISTS library_modules)
-  target_sources(vitrine_codec PRIVATE $<TARGET_OBJECTS:vitrine_codec_${module}>)
-  install(DIRECTORY codec/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vitrine/codec FILES_MATCHING PATTERN "*.h")
+foreach(folder IN LISTS folders)
+  vitrine_module_target(${folder} module)
+  target_sources(vitrine_codec PRIVATE $<TARGET_OBJECTS:${module}>)
+  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vitrine/codec FILES_MATCHING PATTERN "*.h")
 endforeach()
 set_target_properties(vitrine_codec PROPERTIES OUTPUT_NAME vitrine EXPORT_NAME codec)
 target_include_directories(vitrine_codec INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vitrine>)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Each library that ARCHITECTURE.md names: how CMake finds it, and which targets are linked.
+# For each library that ARCHITECTURE.md names: how CMake finds it, and which targets to link.
 
 set(library_Boost FIND Boost 1.81 LINK Boost::headers)
 set(library_CURL FIND CURL LINK CURL::libcurl)
@@ -12,6 +12,9 @@ set(library_PNG FIND PNG LINK PNG::PNG)
 set(library_PostgreSQL FIND PostgreSQL LINK PostgreSQL::PostgreSQL)
 set(library_SQLite FIND SQLite3 LINK SQLite::SQLite3)
 set(library_ZLIB FIND ZLIB LINK ZLIB::ZLIB)
+set(library_TIFF FIND TIFF LINK TIFF::TIFF)
+# Assimp 5.4 and later rotate and scale FBX models. codec/import already does both.
+set(library_assimp FIND assimp 5.2...<5.4 LINK assimp::assimp)
 set(library_fmt FIND fmt LINK fmt::fmt)
 set(library_meshoptimizer FIND meshoptimizer LINK meshoptimizer::meshoptimizer)
 set(library_nlohmann-json FIND nlohmann_json LINK nlohmann_json::nlohmann_json)
@@ -26,6 +29,7 @@ set(library_umockdev MODULE umockdev-1.0)
 set(library_TurboJPEG FILE turbojpeg)
 set(library_WebP FILE webp)
 set(library_seccomp FILE seccomp)
+set(library_stb HEADER stb/stb_image.h)
 set(library_OpenCV OPENCV core imgproc calib3d aruco)
 
 # vitrine_find_library(Draco out): finds the library Draco and sets `out` to the targets to link.
@@ -33,7 +37,7 @@ function(vitrine_find_library name out)
   if(NOT DEFINED library_${name})
     message(FATAL_ERROR "codec/ARCHITECTURE.md names the library ${name}, which codec/cmake/libraries.cmake does not know")
   endif()
-  cmake_parse_arguments(by "" "MODULE;FILE" "FIND;LINK;OPENCV" ${library_${name}})
+  cmake_parse_arguments(by "" "MODULE;FILE;HEADER" "FIND;LINK;OPENCV" ${library_${name}})
   if(by_FIND)
     find_package(${by_FIND} REQUIRED)
     set(targets ${by_LINK})
@@ -47,14 +51,17 @@ function(vitrine_find_library name out)
   elseif(by_FILE)
     find_library(VITRINE_LIBRARY_${name} ${by_FILE} REQUIRED)
     set(targets ${VITRINE_LIBRARY_${name}})
+  elseif(by_HEADER)
+    find_path(VITRINE_HEADER_${name} ${by_HEADER} REQUIRED)
+    set(targets "")
   else()
     vitrine_find_opencv(targets ${by_OPENCV})
   endif()
   set(${out} ${targets} PARENT_SCOPE)
 endfunction()
 
-# Makes the targets itself: Debian has OpenCV's CMake files only in the package of all modules,
-# which also brings viewers.
+# Creates the OpenCV targets without OpenCV's own CMake files. Debian ships these only in the package
+# of all modules, which also installs viewers.
 function(vitrine_find_opencv out)
   find_path(VITRINE_OPENCV opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
   foreach(module IN LISTS ARGN)

@@ -12,9 +12,9 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
-# In builds with tests, archives of link-time optimised code also hold machine code. With gcc's plugin the
-# index of such an archive names functions that were inlined away, and a linker that looks for one loads
-# the same member twice. Writing the index without the plugin avoids that.
+# In builds with tests, archives of link-time optimised code also hold machine code. If gcc's plugin writes
+# the index of such an archive, the index names functions that were inlined away. A linker that looks for
+# such a function loads the same member twice. Writing the index without the plugin avoids that.
 if(VITRINE_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(CMAKE_CXX_ARCHIVE_CREATE_IPO "<CMAKE_AR> --plugin=/dev/null cr <TARGET> <LINK_FLAGS> <OBJECTS>")
   set(CMAKE_CXX_ARCHIVE_FINISH_IPO "<CMAKE_RANLIB> --plugin=/dev/null <TARGET>")
@@ -39,11 +39,12 @@ target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr
 # refine meshes do not check indices, which would make decoding over 10 % slower; their tests and
 # fuzzers run with sanitizers.
 # Tests are compiled without optimisation, which _FORTIFY_SOURCE needs, and sanitizers have checks
-# of their own. Both therefore get none of these options.
+# of their own. Both therefore get none of these options. tests/bench/hardening measures the cost.
+option(VITRINE_HARDENED "Compile with protections against memory faults; turn off only to measure their cost" ON)
 add_library(vitrine_hardened INTERFACE)
 add_library(vitrine_hardened_with_indices INTERFACE)
 target_link_libraries(vitrine_hardened_with_indices INTERFACE vitrine_hardened)
-if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=" AND CMAKE_BUILD_TYPE MATCHES "Rel")
+if(VITRINE_HARDENED AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=" AND CMAKE_BUILD_TYPE MATCHES "Rel")
   target_compile_options(vitrine_hardened INTERFACE -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
   target_compile_definitions(vitrine_hardened_with_indices INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(vitrine_hardened INTERFACE -pie -Wl,-z,relro -Wl,-z,now)
@@ -64,6 +65,13 @@ function(vitrine_rows top out)
   set(${out} "${rows}" PARENT_SCOPE)
 endfunction()
 
+# vitrine_folders(codec out): sets `out` to the folders of the modules below `codec`, such as codec/core.
+function(vitrine_folders top out)
+  vitrine_rows(${top} rows)
+  list(TRANSFORM rows REPLACE "^\\| `([^`]+)`.*$" "\\1")
+  set(${out} ${rows} PARENT_SCOPE)
+endfunction()
+
 # vitrine_libraries_of(codec out): sets `out` to the libraries that the modules below `codec` use.
 function(vitrine_libraries_of top out)
   vitrine_rows(${top} rows)
@@ -76,7 +84,7 @@ function(vitrine_libraries_of top out)
   set(${out} ${libraries} PARENT_SCOPE)
 endfunction()
 
-# vitrine_modules(codec): makes a target of each module that ARCHITECTURE.md lists below this folder.
+# vitrine_modules(codec): creates a target for each module that ARCHITECTURE.md lists below this folder.
 function(vitrine_modules top)
   vitrine_rows(${top} rows)
   foreach(row IN LISTS rows)
@@ -93,7 +101,7 @@ function(vitrine_modules top)
   endforeach()
 endfunction()
 
-# Makes a static library of the folder's sources, without its programs (main.cpp, *_main.cpp).
+# Creates a static library from the folder's sources, without its programs (main.cpp, *_main.cpp).
 function(vitrine_module folder)
   cmake_parse_arguments(module "" "" "MODULES;LIBRARIES" ${ARGN})
   vitrine_module_target(${folder} target)

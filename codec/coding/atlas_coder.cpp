@@ -36,9 +36,9 @@ class PairModel {
   NumberModel x_, y_;
 };
 
-// Returns the place in the picture of the third corner of a triangle that has the same shape in the
-// picture as in space. a and b are the first and second corner in the picture; `to_b` and `to_c`
-// lead from the first corner to the others in space.
+// Returns the position of a triangle's third corner in the picture if the triangle has the same
+// shape there as in space. a and b are the first and second corner in the picture. `to_b` and
+// `to_c` are the vectors in space from the first corner to the second and third.
 Vec2 third_corner(const Vec2& a, const Vec2& b, const Vec3& to_b, const Vec3& to_c) {
   const double squared = dot(to_b, to_b);
   if (!(squared > 0)) return a;
@@ -93,7 +93,8 @@ class AtlasPass {
     return {at.x >> shift_, at.y >> shift_};
   }
 
-  // Codes whether the edge opposite to c is a seam. Codes this only once for each inner edge.
+  // Codes whether the edge opposite to c is a seam. Skips boundary edges, and inner edges that were
+  // coded from their other side.
   void code_seam(Corner c) {
     const Corner across = mesh_.opposite(c);
     if (across >= corners_ || across < c) return;
@@ -103,8 +104,8 @@ class AtlasPass {
     is_seam_[c] = is_seam_[across] = coder_.bit(seam_[context], told ? 1 : 0) != 0;
   }
 
-  // Returns how many edges of the face are already known to be seams, before the edge opposite to c
-  // is coded.
+  // Returns how many of the face's other two edges are already known to be seams when the edge
+  // opposite to c is coded.
   int seams_of_face(Corner c) const {
     int seams = 0;
     for (const Corner other : {next(c), prev(c)}) {
@@ -141,8 +142,8 @@ class AtlasPass {
     }
   }
 
-  // Codes the coordinates of the face of corner c and then, breadth first, those of the faces
-  // across edges that are not seams. Returns false if a coordinate is out of bounds.
+  // Codes the coordinates of the face of corner c. Then codes, breadth first, all faces connected
+  // with it across edges that are not seams. Returns false if a coordinate is out of bounds.
   bool code_from(Corner c) {
     queue_ = {c};
     for (std::size_t i = 0; i < queue_.size(); ++i) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes the texture coordinates of a base mesh (codec/FORMAT.md section 8.2). Codes which edges are
-// seams, then the coordinates of each wedge. A coordinate is predicted as if triangles had the same
-// shape in the picture as in space. Coordinates on a coarse lattice take fewer bytes.
+// seams, then the coordinates of each wedge. Predicts coordinates as if triangles had the same
+// shape in the picture as in space. Coordinates that are multiples of a power of two take fewer
+// bytes.
 #pragma once
 
 #include <cstdint>

@@ -12,9 +12,9 @@ namespace vitrine::inline codec {
 
 class AttributeModel {
  public:
-  // Codes `truth`: the attribute value of the split vertex minus that of the new vertex. Returns
-  // the coded value. The prediction of this value is `difference` times a weight that is learned
-  // online.
+  // Codes `truth`: the attribute value of the split vertex minus the value of the new vertex.
+  // Returns the coded value. The model predicts `truth` as `difference` times a weight that is
+  // learned online.
   template <class Coder>
   Vec3i code(Coder& coder, const Vec3& difference, Vec3i truth) {
     return {channels_[0].code(coder, difference.x, truth.x),

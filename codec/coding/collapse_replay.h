@@ -26,7 +26,8 @@ class CollapseReplay {
     const std::uint32_t k = collapse_of_[fine_[v]];
     if (k == kNoCollapse) return false;
     const Collapse& c = collapses_[k];
-    // The new vertex is the hierarchy's v2. It takes the faces from apex21 to apex12.
+    // The split creates the vertex v2 of the recorded collapse. v2 takes the faces from apex21 to
+    // apex12.
     told = {.qi = to_state(c.apex21), .qj = to_state(c.apex12), .d = c.p1 - c.p2};
     for (std::size_t i = 0; i < kSemantics; ++i)
       told.attribute_d[i] = c.a1[i] - c.a2[i];

@@ -17,8 +17,8 @@
 
 namespace vitrine::inline codec {
 
-// Codes an integer, given a prediction. The standard deviation of the model follows the running
-// mean square of the error.
+// Codes an integer, given a prediction. The model's standard deviation follows the running mean
+// square of the prediction error.
 class NumberModel {
  public:
   template <class Coder>

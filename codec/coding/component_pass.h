@@ -21,8 +21,8 @@
 
 namespace vitrine::inline codec {
 
-// The directed edges of a component, stored as bits. For each vertex, numbered from 0, one word
-// holds the edges that leave the vertex, and one the edges that enter it.
+// The directed edges of a component, stored as bits. For each vertex, one 64-bit word holds the
+// edges that leave the vertex, and another word holds the edges that enter it.
 class EdgeSet {
  public:
   void add(std::uint32_t from, std::uint32_t to) {
@@ -118,7 +118,7 @@ class ComponentPass {
   // the face. Returns false if the data is damaged.
   bool pass(ComponentEdge gate) {
     const auto [from, to] = gate;
-    if (edges_.has(from, to)) return true;  // a face at this edge was coded before
+    if (edges_.has(from, to)) return true;  // this edge already has a face
     const auto met = static_cast<std::uint32_t>(part_.positions.size());
     const std::size_t faces = part_.faces.size();
     const std::uint64_t known = edges_.thirds(from, to, met);
@@ -133,8 +133,8 @@ class ComponentPass {
     return true;
   }
 
-  // Codes which of the `known` vertices is the third one. Codes one flag per vertex, but none for
-  // the last vertex, which is certain.
+  // Codes which of the `known` vertices is the face's third vertex. Codes one flag per vertex until
+  // the right vertex is found. The last vertex needs no flag.
   std::uint32_t code_known(ComponentEdge gate, std::uint64_t known, std::uint32_t third) {
     for (;;) {
       const auto v = static_cast<std::uint32_t>(std::countr_zero(known));

@@ -11,10 +11,11 @@ namespace {
 
 constexpr double kNegligible = 1e-3;  // learn() skips candidates with a lower probability
 constexpr double kNoScore = -1e300;   // score of a candidate that does not exist
-// Upper limits of the scores of a pair of candidates: if both exist, and if only the first exists.
+// Upper limits of the scores of two candidates. Entry 0: both candidates exist. Entry 1: only the
+// first candidate exists.
 constexpr std::array<Double2, 2> kHighest = {Double2{1e300, 1e300}, Double2{1e300, kNoScore}};
 
-// The values of each ring vertex, as one array per value. The values of two consecutive vertices
+// The values of the ring vertices, one array per kind of value. Values of two consecutive vertices
 // are loaded at once, so each array has one extra entry.
 struct RingArrays {
   RingArrays(const RingGeometry& ring, double inverse) {
@@ -34,13 +35,13 @@ struct RingArrays {
 
   static constexpr std::size_t kSize = kMaxSplitValence + 1;
   std::array<double, kSize> x, y, z, length, valence, is_virtual;
-  std::array<double, kSize> real, square;  // 1 and the squared length; 0 if the vertex is virtual
-  // The value of feature 0 for each number of faces of the new vertex.
+  std::array<double, kSize> real, square;  // 1 and the squared length, or 0 for a virtual vertex
+  // The value of feature 0, indexed by the number of faces that the new vertex takes.
   std::array<double, kSize> valences;
 };
 
-// Prefix sums over the ring. Virtual vertices do not count. The positions are integers, so all sums
-// are exact, and a sum over any arc is a difference of two prefix sums.
+// Prefix sums over the ring, without virtual vertices. The sum over an arc is the difference of two
+// prefix sums. All sums are exact, because the positions are integers.
 struct PrefixSums {
   PrefixSums(const RingGeometry& ring, const RingArrays& arrays) : size(ring.size) {
     Vec3 sum;
@@ -137,10 +138,10 @@ std::array<Double2, CutModel::kFeatures> features_of(const RingArrays& ring, con
   const TwoVec3 chord = r - l, centre = (l + r) * both(0.5);
   const Double2 edge = length(d), chord_length = length(chord);
   const Double2 reach = load2(&ring.length[j]);
-  // Counts the ends of the cut twice, because both ends are in both arcs.
+  // Counts the two ring vertices of the cut twice, because each of them is in both arcs.
   const Double2 real = sums.total_count + ring.real[i] + load2(&ring.real[j]);
-  // Sum of the squared lengths of the edges from the two vertices, which lie at +d/2 and -d/2, to
-  // the ring vertices of their arcs.
+  // Sum of the squared lengths of the edges from the split's two vertices to the ring vertices of
+  // their arcs. The two vertices lie at +d/2 and -d/2.
   const Double2 squares =
       (sums.squares + ring.square[i] + load2(&ring.square[j])) * inverse * inverse +
       dot(d, near.sum - far.sum) * inverse + real * 0.25 * dot(d, d);
@@ -183,7 +184,7 @@ Vec3 CutModel::estimate(const RingGeometry& ring, const RingCut& cut) {
          kArcToEdge;
 }
 
-// Computes the features and the probability of each cut. Handles two cuts at a time; both start at
+// Computes the features and the probability of each cut. Handles two cuts at a time, which start at
 // the same ring vertex.
 void CutModel::evaluate(const RingGeometry& ring) {
   const double inverse = 1.0 / ring.scale;

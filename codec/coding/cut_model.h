@@ -20,7 +20,7 @@ namespace vitrine::inline codec {
 // clearing it takes longer than filling it.
 struct RingGeometry {
   std::uint32_t size = 0;
-  // Mean distance from the vertex to its ring vertices, without virtual ones; at least 0.5.
+  // Mean distance from the vertex to its non-virtual ring vertices; at least 0.5.
   double scale = 1;
   // Positions relative to the vertex. They are integers; 0 if the ring vertex is virtual.
   std::array<double, kMaxSplitValence> x, y, z;
@@ -32,18 +32,19 @@ struct RingGeometry {
 };
 
 struct RingCut {
-  // A cut. The new vertex takes the faces from ring vertex i to ring vertex j, with i < j.
+  // A cut of the one-ring. The new vertex takes the faces from ring vertex i to ring vertex j, with
+  // i < j.
   std::uint32_t i = 0, j = 1;
 };
 
 class CutModel {
  public:
-  // D = V1 - V2 is the difference of the positions of a split's two vertices. In a regular
-  // triangulation, D is kArcToEdge times the difference of the mean positions of the ring's two
-  // arcs.
+  // D = V1 - V2 is the difference of the positions of a split's two vertices. A cut divides the
+  // ring into two arcs. In a regular triangulation, D is kArcToEdge times the difference of the
+  // mean positions of these arcs.
   static constexpr double kArcToEdge = 0.7;
 
-  // Estimates D from the ring's two arcs, in lattice units.
+  // Estimates D from the two arcs of the ring, in lattice units.
   static Vec3 estimate(const RingGeometry& ring, const RingCut& cut);
 
   CutModel();
@@ -112,7 +113,7 @@ class CutModel {
   std::uint32_t slots_ = 0;  // number of candidate slots, including slots without a candidate
   std::array<TwoFeatures, kMaxTwos> features_;
   std::array<RingCut, 2 * kMaxTwos> cuts_;
-  // Per candidate: its probability. Becomes negative once the candidate's flag is coded.
+  // Per candidate: its probability, made negative once the candidate's flag is coded.
   std::array<double, 2 * kMaxTwos> probability_;
   std::array<AdaptiveBit, kBits> bits_;
 };

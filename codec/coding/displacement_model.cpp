@@ -13,7 +13,7 @@ constexpr double kRidge = 4;  // weight of the initial values, as a number of sp
 constexpr std::uint32_t kSolveEvery = 16;
 constexpr double kMemory = 600;  // number of splits after which older evidence fades
 
-// Equals std::clamp, but compiles to two instructions without a branch.
+// Same as std::clamp, but compiles to two instructions without a branch.
 double bounded(double x, double low, double high) {
   return std::min(std::max(x, low), high);
 }
@@ -182,8 +182,8 @@ void DisplacementModel::Regression::solve() {
     Double2 sum = y[i];
     for (std::size_t k = i + 1; k < kFeatures; ++k)
       sum -= l[k][i] * Double2{tangential[k], normal[k]};
-    // A weight exceeds 1,000 only if hostile splits make the matrix singular. Such a weight counts
-    // as 0.
+    // A weight exceeds 1,000 only if hostile splits make the matrix singular. It is then replaced
+    // by 0.
     const Double2 weight = sum / l[i][i];
     const Double2 safe = abs(weight) < both(1e3) ? weight : both(0);
     tangential[i] = safe[0], normal[i] = safe[1];

@@ -7,7 +7,7 @@
 // the surface normal, and the direction perpendicular to both. The components x, y and z of D are
 // coded in turn, each conditional on the previous ones. The variance along an axis is a product
 // with one factor per clue (SplitSurroundings::Clue). The mean error along the predicted direction
-// is a sum with one term per clue. Factors and terms are learned online.
+// is a sum with one term per clue. The factors and terms are learned online.
 #pragma once
 
 #include <array>
@@ -20,16 +20,16 @@
 namespace vitrine::inline codec {
 
 // Features of the mesh around a split, computed after pass 1 (layer_pass.h). All positions are
-// relative to v~, the position of the vertex before its split.
+// relative to the merged vertex, which is the vertex before its split.
 struct SplitSurroundings {
   static constexpr std::size_t kFeatures = 9;
   std::array<Vec3, kFeatures> features{};  // each changes sign if V1 and V2 are swapped
-  Vec3 normal;                             // unit vector, or zero if there is no normal
-  double scale = 1;                        // mean distance of neighbours from v~, in cells, >= 0.5
+  Vec3 normal;                             // unit normal of the surface, or zero if undefined
+  double scale = 1;                        // mean distance of the neighbours, in cells, >= 0.5
 
   static constexpr std::size_t kKinds = 2;
-  // 1 if each vertex of the split has at least five neighbours besides the split's other vertex;
-  // else 0.
+  // 1 if each of the split's two vertices has at least five neighbours besides the other one; else
+  // 0.
   std::size_t kind = 0;
 
   // Clues to the size of the prediction error. Each clue has an integer value in [0, kLevels - 1].
@@ -37,16 +37,16 @@ struct SplitSurroundings {
     kRingSizes,
     kScale,
     kParallelogram,  // length of the parallelogram prediction, relative to `scale`
-    // Mean squared distance of the neighbours from the plane through v~ that is perpendicular to
-    // `normal`, relative to scale^2.
+    // Mean squared distance of the neighbours from the tangent plane, which goes through the merged
+    // vertex and is perpendicular to `normal`, relative to scale^2.
     kHeight,
-    kDistance,  // variance of the neighbours' distances from v~, relative to scale^2
+    kDistance,  // variance of the neighbours' distances from the merged vertex, relative to scale^2
     kSettled,   // share of the neighbours that have their final positions
     kChord,     // distance between the two cut vertices, relative to `scale`
     kSlant,     // cosine of the angle between the chord and the difference of the arcs' means
     kNeighbourError,
     kNeighbourNormalError,
-    // this clue and the next two are distances between two predictions of D
+    // this clue and the next two: the distance between two predictions of D
     kNeighboursFromLaplacian,
     kArcsFromLaplacian,
     kParallelogramsFromLaplacian,
@@ -101,7 +101,7 @@ class DisplacementModel {
   static constexpr double kPriorWeight = 60;  // weight of the start values, in splits
 
  private:
-  // Rows have an even size, so that they can be handled two elements at a time.
+  // Rows have an even size, so that they can be processed two elements at a time.
   static constexpr std::size_t kRow = kFeatures + kFeatures % 2;
 
   // The features as one array per coordinate, and their dot products with the normal.
@@ -144,8 +144,8 @@ class DisplacementModel {
   static constexpr double kGrain = 0.12;  // variance from rounding to the lattice, plus a margin
 
   // Recursive least squares for two parts of D: the tangential and the normal part. The inputs are
-  // the same parts of the features. Each pair of numbers holds one number for the tangential part
-  // and one for the normal part. Only matrix[a][b] with b <= a is used.
+  // the tangential and normal parts of the features. The first number of each Double2 is for the
+  // tangential part, the second for the normal part. Only matrix[a][b] with b <= a is used.
   struct Regression {
     Weights tangential{}, normal{};
     std::array<std::array<Double2, kRow>, kFeatures> matrix{};

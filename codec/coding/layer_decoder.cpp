@@ -23,9 +23,9 @@ Expected<LayerChange> decode_layer(MeshState& mesh, const ChunkFrame& frame, con
                                    std::uint32_t node, std::span<const std::uint8_t> bytes) {
   RangeDecoder coder(bytes);
   auto splits = decode_splits(mesh, frame, coder);
-  if (!splits) return tl::unexpected(std::move(splits.error()));
+  if (!splits) return tl::unexpected(splits.error());
   auto components = decode_components(mesh, frame, coder);
-  if (!components) return tl::unexpected(std::move(components.error()));
+  if (!components) return tl::unexpected(components.error());
   if (tree.nodes[node].forks_by(frame.level + 1)) {
     const auto none = [](VertexId) { return std::uint16_t{0}; };
     code_fork(mesh, coder, tree, node, frame.level + 1, none);

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
-// Sorts components by the positions of their first vertices. Each component is then near the
-// previous one, which saves bits.
+// Sorts components by the positions of their first vertices, so that each component is near the
+// previous one. This saves bits.
 void sort_components(std::vector<const Component*>& insertions) {
   const auto begin = [](const Component* c) {
     const std::uint32_t v = ComponentReplay::first_vertex(*c);

@@ -33,9 +33,9 @@ class LayerEncoder {
   // Encodes the next level. The first call encodes level 1.
   Expected<std::vector<EncodedChunk>> encode_level();
 
-  // The steps of encode_level(), for use with other coders than RangeEncoder. Call begin_level()
+  // The steps of encode_level(), for use with coders other than RangeEncoder. Call begin_level()
   // once, then code_chunk() for each returned chunk, then end_level(). code_chunk() calls
-  // observe(pass) with the chunk's LayerPass once the chunk's splits are coded.
+  // observe(pass) with the chunk's LayerPass after coding the chunk's splits.
   std::vector<EncodedChunk> begin_level();
   template <class Coder, class Observer>
   Expected<void> code_chunk(Coder& coder, const EncodedChunk& chunk, const Observer& observe);
@@ -59,11 +59,11 @@ class LayerEncoder {
   // Per id in the hierarchy: the vertex of mesh_ with this id, or 0xFFFFFFFF if it does not exist
   // yet.
   std::vector<VertexId> state_;
-  // Per id in the hierarchy: index of the collapse that the vertex's split undoes in the level
-  // being encoded, or 0xFFFFFFFF if the vertex does not split.
+  // Per id in the hierarchy: the index of the collapse that is undone if this vertex splits in the
+  // level being encoded, or 0xFFFFFFFF if the vertex does not split.
   std::vector<std::uint32_t> collapse_of_;
-  // Per id in the hierarchy: the vertex's cell in the level being encoded. Empty if the lattice
-  // stays the same.
+  // Per id in the hierarchy: the vertex's cell in the level being encoded. Empty if the level has
+  // the same lattice as the previous one.
   std::vector<Vec3i> cell_;
   std::uint32_t level_ = 0;
 };

@@ -7,9 +7,10 @@
 // vertices are coded first.
 //
 // Pass 1 visits the region's vertices in descending lexicographic order of position and codes a
-// split flag for each. If the vertex splits, pass 1 also codes the cut pair, and splits the vertex
-// with an estimate of D = V1 - V2. Collapses were made in ascending order, so each split finds the
-// same one-ring that its collapse left. Pass 2 codes the exact D of each split.
+// split flag for each. If the vertex splits, pass 1 also codes the two ring vertices at which the
+// ring is cut, and splits the vertex with an estimate of D = V1 - V2. Collapses were made in
+// ascending order, so each split finds the same one-ring that its collapse left behind. Pass 2
+// codes the exact D of each split.
 //
 // The contexts of the models do not depend on the order in which regions are refined. If a vertex
 // splits, its neighbours in other regions do not split in the same level. The split flag of a
@@ -75,7 +76,7 @@ class LayerPass {
     // splits.
     if (frame_.splits > mesh_.members[frame_.region].size()) return damaged("too many splits");
     refine_lattice();
-    if (auto ok = split_all(); !ok) return tl::unexpected(std::move(ok.error()));
+    if (auto ok = split_all(); !ok) return tl::unexpected(ok.error());
     placed_.reserve(chunk_.size());
     while (placed_.size() < chunk_.size()) {
       if (!place()) return damaged("a vertex leaves the lattice");
@@ -219,7 +220,7 @@ class LayerPass {
     }
   }
 
-  // Moves v and w to their estimated positions. They stay there until pass 2.
+  // Moves v and w to their estimated positions, where they stay until pass 2.
   void estimate(VertexId v, VertexId w, const Vec3i& merged, const Vec3& d) {
     const Vec3i half = {exact::round(d.x * 0.5), exact::round(d.y * 0.5), exact::round(d.z * 0.5)};
     mesh_.positions[v] = merged + half;
@@ -245,8 +246,8 @@ class LayerPass {
     place_wedges(mesh_, v, w, merged);
   }
 
-  // Returns the term r of pyramid placement (placement.h). Midpoint placement has the same r for
-  // all splits.
+  // Returns the term r of pyramid placement (placement.h). With midpoint placement, all splits have
+  // the same r instead.
   Vec3i term(const OneRing& ring, const RingCut& cut) const {
     std::array<Vec3i, kMaxSplitValence> others;
     std::array<Vec3i, 2> opposite;

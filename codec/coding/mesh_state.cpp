@@ -14,10 +14,10 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shi
   mesh.members.resize(leaves);
   mesh.ordinals.assign(leaves, 0);
   add_columns(mesh.attributes, base.attributes);
-  if (auto ok = mesh.add(base, 0, 0); !ok) return tl::unexpected(std::move(ok.error()));
+  if (auto ok = mesh.add(base, 0, 0); !ok) return tl::unexpected(ok.error());
   if (base.atlas.empty()) return mesh;
   auto wedges = Wedges::from_base(base.atlas, mesh.connectivity);
-  if (!wedges) return tl::unexpected(std::move(wedges.error()));
+  if (!wedges) return tl::unexpected(wedges.error());
   mesh.wedges = std::move(*wedges);
   return mesh;
 }
@@ -25,7 +25,7 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shi
 Expected<void> MeshState::add(const BaseMesh& part, std::uint16_t k, std::uint8_t level) {
   const auto n = static_cast<std::uint32_t>(part.positions.size());
   auto closed = Connectivity::close(n, part.faces);
-  if (!closed) return tl::unexpected(std::move(closed.error()));
+  if (!closed) return tl::unexpected(closed.error());
   const auto is_inside = [&](const Vec3i& cell) {
     return is_in_coordinate_bound(cell) && is_in_coordinate_bound(middle_of(cell, shift));
   };
@@ -63,8 +63,8 @@ void MeshState::remove(const InsertedComponent& newest) {
 void MeshState::fetch_rings(std::span<const VertexId>, std::size_t) const {}
 #else
 void MeshState::fetch_rings(std::span<const VertexId> order, std::size_t k) const {
-  // Number of rings handled at a time, and number of neighbours handled per ring. Few rings have
-  // more neighbours.
+  // Number of rings to prefetch at a time, and number of neighbours to prefetch per ring. Few rings
+  // have more neighbours.
   constexpr std::size_t kRings = 8, kSteps = 6;
   if (k % kRings != 0) return;
   const auto soon = order.subspan(std::min(k + kRings, order.size()));

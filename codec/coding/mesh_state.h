@@ -15,7 +15,7 @@
 
 namespace vitrine::inline codec {
 
-inline constexpr std::uint16_t kNoRegion = 0xFFFF;  // stands for the region of a virtual vertex
+inline constexpr std::uint16_t kNoRegion = 0xFFFF;  // region of a virtual vertex
 
 inline constexpr std::int32_t kCoordinateBound = 1 << 18;  // largest absolute value of a coordinate
 
@@ -26,8 +26,8 @@ constexpr bool is_in_coordinate_bound(const Vec3i& p) {
 
 // The data of a vertex other than its position and attributes.
 struct VertexRecord {
-  // The identity of the vertex: it was the `ordinal`-th new vertex of the region `origin`. The
-  // identity does not depend on the order of refinement, nor on which regions have forked.
+  // These two numbers identify the vertex: it was the `ordinal`-th new vertex of the region
+  // `origin`. They depend neither on the order of refinement nor on which regions have forked.
   std::uint32_t ordinal = 0;
   std::uint16_t origin = 0;
   std::uint16_t region = 0;               // first leaf of the vertex's region (region_tree.h)
@@ -69,8 +69,8 @@ struct MeshState {
   std::uint32_t shift = 0, foreign_shift = 0;
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }
-  // Returns the position of v as used by a chunk of region `from`. The result does not depend on
-  // whether v's region has reached the chunk's level. v must not be virtual.
+  // Returns the position of v that a chunk of region `from` uses. The result does not depend on
+  // whether v's region has already reached the chunk's level. v must not be virtual.
   Vec3i seen_from(std::uint16_t from, VertexId v) const {
     if (vertex[v].region == from) return positions[v];
     return middle_of(cell_of(positions[v], foreign_shift), foreign_shift);
@@ -83,13 +83,13 @@ struct MeshState {
 
   // Appends whole components to region k at `level`. `part` must have the same attributes as the
   // mesh and no faces at virtual vertices. Its positions are cells with sides of 2^shift. Fails
-  // like from_base() and then leaves the state unchanged.
+  // like from_base(); the state is then unchanged.
   Expected<void> add(const BaseMesh& part, std::uint16_t k, std::uint8_t level);
   // Undoes the last add(). The state must be the same as directly after add().
   void remove(const InsertedComponent& newest);
 
   // Prefetches the one-rings of the next vertices in `order`, eight at a time, so that visits do
-  // not wait for memory. Call this before each visit of vertex order[k].
+  // not wait for memory. Call this before each visit to vertex order[k].
   void fetch_rings(std::span<const VertexId> order, std::size_t k) const;
 
   void count_valence(VertexId v);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes how a region forks at the end of its last chunk: the child region of each vertex, in the
-// order of vertex indices. The split planes in the header predict the child regions. Nearly all
-// predictions are right, because regions are convex.
+// Codes how a region forks (divides into child regions) at the end of its last chunk: the child
+// region of each vertex, in the order of vertex indices. The planes in the header that divide
+// regions predict the child regions. Nearly all predictions are right, because regions are convex.
 #pragma once
 
 #include <utility>

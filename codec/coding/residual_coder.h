@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes an integer that follows roughly a Gaussian with known centre and standard deviation. First
-// codes whether the integer equals the rounded centre, then the sign, exponent and mantissa of the
-// difference. The contexts of these bits depend on the standard deviation.
+// Codes an integer that roughly follows a Gaussian distribution with known centre and standard
+// deviation. First codes whether the integer equals the rounded centre, then the sign, exponent and
+// mantissa of the difference. The contexts of these bits depend on the standard deviation.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint32_t kMaxNeighbours = 64;
 constexpr std::uint32_t kNoSplit = 0xFFFF'FFFFu;
 
-// The neighbours of one vertex of a split, without the split's other vertex. They are in order from
-// the first cut vertex to the second.
+// The neighbours of one vertex of a split, without the split's other vertex, in ring order from one
+// cut vertex to the other.
 struct HalfRing {
   std::uint32_t size = 0;
   // Corners at the vertex, one for each neighbour. The neighbour is at the next corner of the same
@@ -41,12 +41,12 @@ HalfRing half_ring(const MeshState& mesh, Corner towards_partner) {
   return half;
 }
 
-// The positions of a half ring's vertices that a chunk of `region` uses (MeshState::seen_from()),
-// relative to the `origin` of spokes_of(). Positions and lengths of virtual vertices are undefined.
+// The vectors from a given origin to the vertices of a half ring. Uses the positions that
+// MeshState::seen_from() returns. The values of virtual vertices are undefined.
 struct Spokes {
   std::array<double, kMaxNeighbours> x, y, z, length;
-  std::array<bool, kMaxNeighbours> is_own;  // whether the vertex belongs to `region`
-  // The split of this chunk that the vertex belongs to, or kNoSplit.
+  std::array<bool, kMaxNeighbours> is_own;  // whether the vertex is in the chunk's region
+  // Index of the split of this chunk that the vertex takes part in, or kNoSplit.
   std::array<std::uint32_t, kMaxNeighbours> split;
 
   Vec3 at(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
@@ -86,8 +86,8 @@ struct HalfFeatures {
   double distance = 0;
 };
 
-// Sums over the neighbours of a split's vertices that also split in this level. D is the difference
-// of the positions of a split's two vertices (displacement_model.h).
+// Sums over those neighbours of a split's vertices that also split in this level. D is the
+// difference of the positions of a split's two vertices (displacement_model.h).
 struct NeighbourSplits {
   Mean d;
   SplitError error;  // sum of the prediction errors of the splits counted in `d`
@@ -95,9 +95,10 @@ struct NeighbourSplits {
   int pending = 0;
 };
 
-// Predicts the position of a split's vertex by the parallelogram rule from three vertices: the
-// neighbours k and k + 1, and the tip, which lies across the edge between these two. Adds the
-// prediction and the tip to the two means, unless one of the three vertices is in another region.
+// Predicts the position of a split's vertex as the fourth corner of a parallelogram. Its other
+// corners are the neighbours k and k + 1, and the tip, which lies across the edge between these
+// two. Adds the prediction and the tip to the two means, unless one of the three vertices is in
+// another region.
 void add_parallelogram(const MeshState& mesh, const HalfRing& half, const Spokes& spokes,
                        std::uint32_t k, std::uint16_t region, const Vec3i& origin,
                        Mean& parallelogram, Mean& tips) {
@@ -171,10 +172,10 @@ std::uint8_t level_of(double x, int least, int count) {
   return static_cast<std::uint8_t>(std::clamp(level, 0, count - 1));
 }
 
-// Measures how uneven the surface is around v~, the vertex before the split. `height` and
-// `distance` are sums over the real neighbours of v~. `height` sums squared distances from the
-// tangent plane at v~. `distance` sums the squared differences between the neighbours' distances
-// from v~ and their mean distance.
+// Measures how uneven the surface is around the merged vertex, which is the vertex before the
+// split. `height` and `distance` are sums over its real neighbours. `height` sums squared distances
+// from the tangent plane at the merged vertex. `distance` sums the squared differences between the
+// neighbours' distances from the merged vertex and their mean distance.
 struct Unevenness {
   double height = 0, distance = 0;
   int count = 0;
@@ -271,7 +272,8 @@ RingGeometry ring_geometry(const MeshState& mesh, VertexId v, const OneRing& rin
 
 namespace {
 
-// The one-rings of a split's two vertices. Positions are relative to v~, in lattice units.
+// The one-rings of a split's two vertices. Positions are relative to the vertex before the split,
+// in lattice units.
 struct SplitRings {
   SplitRings(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s)
       : SplitRings(mesh, chunk, s, mesh.vertex[chunk.v(s)], chunk.splits[s].merged) {}
@@ -280,8 +282,8 @@ struct SplitRings {
   Spokes to_v, to_w;
   HalfFeatures v, w;
   int neighbours;  // number of neighbours, at least 1
-  double scale;    // mean distance of the neighbours from v~, at least half a cell
-  Vec3 normal;     // unit vector, or zero if there is no normal
+  double scale;    // mean distance of the neighbours, at least half a cell
+  Vec3 normal;     // unit normal of the surface, or zero if undefined
   Vec3 chord;      // vector from cut vertex q_i to cut vertex q_j; zero if one is virtual
 
  private:
@@ -306,9 +308,9 @@ struct SplitRings {
   }
 };
 
-// Averages D over the neighbours that split in this level. A D whose dot product with `arcs` is
-// negative is first negated. Branches on whether a neighbour counts or on the sign of its D would
-// often be mispredicted, so this function avoids them.
+// Averages D over the neighbours that split in this level. Negates each D that points away from
+// `arcs` (negative dot product). Branches on whether a neighbour counts, or on the sign of its D,
+// would often be mispredicted, so this function avoids them.
 NeighbourSplits neighbour_splits(std::span<const PlacedSplit> placed, const SplitRings& rings,
                                  const Vec3& arcs) {
   NeighbourSplits out;
@@ -334,15 +336,15 @@ NeighbourSplits neighbour_splits(std::span<const PlacedSplit> placed, const Spli
   return out;
 }
 
-// Predictions of the difference D of the positions of a split's two vertices
-// (displacement_model.h), in lattice units. The final prediction is a weighted sum of these.
+// Predictions of D, the difference of the positions of a split's two vertices
+// (displacement_model.h), in lattice units. The final prediction is a weighted sum of them.
 struct Predictions {
-  // D if each of the two vertices lies at the mean of its neighbours. The other vertex counts as a
-  // neighbour, too.
+  // D if each of the two vertices lies at the mean of its neighbours, which include the other
+  // vertex.
   Vec3 laplacian;
   Vec3 arcs;            // mean of v's half ring minus mean of w's half ring
   Vec3 inner_arcs;      // like `arcs`, but without the two cut vertices
-  Vec3 parallelograms;  // mean parallelogram prediction of v minus that of w
+  Vec3 parallelograms;  // mean parallelogram prediction of v minus that for w
   Vec3 across_chord;    // vector of length `scale` in the surface, perpendicular to the chord
   Vec3 neighbours;      // mean D of the neighbours that split in this level
   Vec3 bend;            // cross product of `normal` and SplitRings::chord
@@ -417,7 +419,7 @@ SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& c
   const NeighbourSplits around = neighbour_splits(placed, rings, arcs);
   const Predictions p = predictions_of(rings, around, arcs);
 
-  // Converts lattice units to cells. This factor is a power of two, so no rounding occurs.
+  // Factor from lattice units to cells. It is a power of two, so no rounding occurs.
   const double cells = 1.0 / static_cast<double>(1u << mesh.shift);
   SplitSurroundings out{
       .features = {p.laplacian * cells, p.arcs * cells, p.inner_arcs * cells,

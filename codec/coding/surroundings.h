@@ -49,7 +49,8 @@ struct OneRing {
 // valence exceeds kMaxSplitValence.
 bool gather_ring(const MeshState& mesh, VertexId v, OneRing& ring);
 
-// Makes the ring start at the neighbour with the smallest MeshState::canonical().
+// Rotates the ring so that it starts at the neighbour with the smallest MeshState::canonical()
+// number.
 void start_canonically(const MeshState& mesh, OneRing& ring);
 
 FlagFeatures flag_features(const MeshState& mesh, VertexId v, const OneRing& ring,
@@ -57,9 +58,9 @@ FlagFeatures flag_features(const MeshState& mesh, VertexId v, const OneRing& rin
 
 RingGeometry ring_geometry(const MeshState& mesh, VertexId v, const OneRing& ring);
 
-// A split whose two vertices have their final positions.
+// A split whose two vertices, v and the new vertex w, have their final positions.
 struct PlacedSplit {
-  Vec3 d;            // final position of v minus that of the new vertex, in lattice units
+  Vec3 d;            // final position of v minus final position of w, in lattice units
   SplitError error;  // error of the prediction of `d`
 };
 

@@ -6,7 +6,7 @@
 namespace vitrine::inline codec::trained {
 namespace {
 
-// Reads a number and the space after it. The result is exactly rounded: a double holds both the
+// Reads a number and the space after it. The result is correctly rounded: a double holds both the
 // numerator and the denominator exactly, so only the division rounds. A test checks all numbers in
 // the tables.
 double read_number(const char*& text) {
@@ -16,7 +16,7 @@ double read_number(const char*& text) {
   for (bool fraction = false; *text >= '.'; ++text) {
     if (*text == '.') {
       fraction = true;
-    } else if (*text == 'e') {  // the exponent is always 'e', '-' and two digits
+    } else if (*text == 'e') {  // an exponent is always 'e', '-' and two digits
       for (int places = (text[2] - '0') * 10 + text[3] - '0'; places > 0; --places)
         power *= 10;
       text += 3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The trained initial values of the probability models and predictors. Changing them changes the
-// file format. tests/training/train_tables.cpp generates them and lists the training meshes. The
-// text form was chosen because it takes the least space in the browser's compressed module.
+// file format. tests/training/train_tables.cpp generates them and lists the training meshes.
+// Numbers are stored as text because this takes the least space in the browser's compressed module.
 #pragma once
 
 #include <array>

@@ -54,8 +54,8 @@ std::vector<VertexId> visiting_order(const Segments<Vec3i>& positions,
   std::vector<VertexId> order(members.size());
   if (members.empty()) return order;
   const Slabs slabs(positions, members);
-  // Per slab: the next free place in `order`. At first this is the slab's start. Once all vertices
-  // are placed, it is the slab's end.
+  // Per slab: the next free index in `order`. It begins as the start of the slab and becomes the
+  // end of the slab once all vertices are placed.
   std::vector<std::uint32_t> end(slabs.count() + 1, 0);
   for (const VertexId v : members)
     ++end[slabs.of(positions[v]) + 1];

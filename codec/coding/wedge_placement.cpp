@@ -13,11 +13,11 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr int kSweeps = 3;  // rounds of relaxation
-// smallest accepted area of a triangle, divided by the square of its longest edge
+// smallest accepted shape() of a triangle
 constexpr double kGoodShape = 1e-3;
 
-// The coordinates of a wedge before a split, and the two wedges that it becomes: one at v, one at
-// w. Each is kNoWedge if that vertex has no part of the wedge.
+// A wedge at a split's vertices: its coordinates before the split, and the parts of it that v and w
+// get. A part is kNoWedge if the vertex gets no part.
 struct Parted {
   WedgeId at_v = kNoWedge, at_w = kNoWedge;
   Vec2i before;
@@ -46,12 +46,12 @@ void append_spokes(const MeshState& mesh, VertexId v, std::vector<Spoke>& spokes
   } while (c != first);
 }
 
-// The linear map from space to the picture that fits the triangles around a
-// vertex best, in the sense of least squares.
+// The linear map from space to the picture that fits the triangles around a vertex best, by least
+// squares.
 class LinearMap {
  public:
-  // Adds a point near the vertex. `d` is the vector from the vertex to the point in space, `e` the
-  // same vector in the picture.
+  // Adds a point near the vertex. `d` is the vector from the vertex to the point in space. `e` is
+  // this vector in the picture.
   void add(const Vec3& d, const Vec2& e) {
     xx_ += d.x * d.x, xy_ += d.x * d.y, xz_ += d.x * d.z;
     yy_ += d.y * d.y, yz_ += d.y * d.z, zz_ += d.z * d.z;
@@ -59,7 +59,7 @@ class LinearMap {
   }
 
   // Solves for the map. The term added to the diagonal keeps the map small along the surface
-  // normal, where points near the vertex hardly determine it.
+  // normal, because points near the vertex hardly determine the map in this direction.
   void solve() {
     const double term = 0.003 * (xx_ + yy_ + zz_) + 1e-9;
     xx_ += term, yy_ += term, zz_ += term;
@@ -98,7 +98,8 @@ class SplitPlacement {
  private:
   static constexpr std::size_t kSpokes = 32;  // usual maximum for both vertices together
 
-  // Returns the wedges that the split has divided or passed on to w.
+  // Returns all wedges at v and w. The two parts of a wedge that the split has divided form one
+  // entry.
   std::vector<Parted> parted_wedges() const {
     std::vector<Parted> out;
     for (std::size_t i = 0; i < spokes_.size(); ++i) {
@@ -135,7 +136,7 @@ class SplitPlacement {
 
   bool is_new(Corner c) const { return c / 3 + 2 >= mesh_.connectivity.face_count(); }
 
-  // Calls visit(spoke) for each corner at a wedge of v and w that is being placed.
+  // Calls visit(spoke) for each corner of the wedges that are being placed.
   template <class Visit>
   void for_each_spoke(Visit visit) const {
     for (const Spoke& spoke : spokes_) {
@@ -144,7 +145,7 @@ class SplitPlacement {
     }
   }
 
-  // Collects the triangles around the vertex as it was before the split.
+  // Collects the triangles that were around the vertex before the split.
   void measure() {
     map_ = {};
     area_ = 0;
@@ -157,11 +158,12 @@ class SplitPlacement {
   }
 
   Vec3i position(Corner c) const { return mesh_.seen_from(region_, mesh_.connectivity.vertex(c)); }
-  // Returns the coordinates of a wedge relative to those of the divided wedge before the split.
+  // Returns the coordinates of a wedge, relative to the coordinates of the divided wedge before the
+  // split.
   Vec2i uv(WedgeId wedge) const { return mesh_.wedges[wedge].at - parts_.before; }
 
-  // Returns the least shape of the triangles at both wedges. The shape is the area divided by the
-  // square of the longest edge.
+  // Returns the worst shape of the triangles at both wedges. The shape of a triangle is twice its
+  // area divided by the square of its longest edge.
   double shape() const {
     double least = 1;
     for_each_spoke([&](const Spoke& spoke) {
@@ -179,8 +181,8 @@ class SplitPlacement {
     if (parts_.at_w != kNoWedge) mesh_.wedges.move(parts_.at_w, at_w);
   }
 
-  // Tries to move the two wedges by `to_v` and `to_w`. Returns whether all triangles then have good
-  // shapes.
+  // Tries to move the two wedges by `to_v` and `to_w`. Returns whether all triangles then have a
+  // good shape().
   bool attempt(const Vec2& to_v, const Vec2& to_w) {
     const Vec2i at_v = parts_.before + rounded(to_v), at_w = parts_.before + rounded(to_w);
     set(at_v, at_w);
@@ -229,8 +231,9 @@ class SplitPlacement {
   Vec2i best_v_, best_w_;
 };
 
-// Improves the wedges of a chunk's splits in blocks. The triangles of a block are collected once
-// for all sweeps. Blocks are small, so that their triangles stay in the processor's cache.
+// Improves the wedges of a chunk's splits, one block of splits after another. The triangles of a
+// block are collected once for all sweeps. Blocks are small, so that their triangles stay in the
+// processor's cache.
 class Relaxation {
  public:
   Relaxation(MeshState& mesh, const ChunkSplits& chunk) : mesh_(mesh), chunk_(chunk) {}
@@ -248,12 +251,13 @@ class Relaxation {
  private:
   static constexpr std::size_t kBlock = 256;  // number of splits per block
 
-  // A triangle at a wedge: the wedges of its other two corners, and its shape in space.
+  // A triangle that has a corner in a wedge: the wedges of its other two corners, and its shape in
+  // space.
   struct StarTriangle {
     WedgeId next, prev;
     TriangleShape shape;
   };
-  // A wedge and its triangles, those from `begin` to `end` - 1.
+  // A wedge and its triangles, which have the indices `begin` to `end` - 1.
   struct Star {
     WedgeId wedge;
     std::size_t begin, end;
@@ -289,13 +293,13 @@ class Relaxation {
     }
   }
 
-  // Returns whether no spoke before spoke i has the same wedge.
+  // Returns whether spoke i is the first spoke with its wedge.
   bool is_first(std::size_t i) const {
     return std::none_of(spokes_.begin(), spokes_.begin() + static_cast<std::ptrdiff_t>(i),
                         [&](const Spoke& other) { return other.wedge == spokes_[i].wedge; });
   }
 
-  // Collects the star of the wedge whose first spoke is `first`.
+  // Collects a wedge and its triangles as a Star. `first` is the index of the wedge's first spoke.
   void collect_star(std::size_t first) {
     Star star{.wedge = spokes_[first].wedge, .begin = triangles_.size(), .end = 0};
     for (std::size_t i = first; i < spokes_.size(); ++i) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the texture coordinates of the two vertices of a split. They are predicted, so no data
-// is coded for them.
+// Computes the texture coordinates of the two vertices of a split. Both encoder and decoder predict
+// them in the same way, so no data is coded.
 //
-// Right after a split, place_wedges() moves the coordinates of its two vertices apart, so that
+// Directly after a split, place_wedges() moves the coordinates of its two vertices apart, so that
 // every triangle in the picture keeps its orientation. Once all splits of the chunk have their
-// exact positions, relax_wedges() improves the shapes. Both functions depend only on vertices of
-// the chunk's region and on vertices that do not split in the same level, so the result does not
-// depend on the order in which regions are refined.
+// exact positions, relax_wedges() improves the triangles' shapes. Both functions use only vertices
+// of the chunk's region and vertices that do not split in the same level. The result therefore does
+// not depend on the order in which regions are refined.
 #pragma once
 
 #include "codec/coding/mesh_state.h"

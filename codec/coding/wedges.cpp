@@ -78,7 +78,7 @@ Wedges::Choice Wedges::default_choice(const Sides& first, const Sides& second) {
 }
 
 // Tries all combinations of sides that the two new faces can join. Returns the combination with the
-// shortest seams. If two are equal, prefers the sides of v.
+// shortest seams. Among equally short combinations, prefers the sides of v.
 Wedges::Choice Wedges::shortest_seams(const Sides& first, const Sides& second,
                                       const SplitEdgeLengths& lengths) {
   const auto can_join = [](const Sides& sides, std::size_t side) {
@@ -129,8 +129,7 @@ void Wedges::divide(VertexId w, std::span<const Corner> ring, std::uint32_t i, s
   kept_.push_back(joined[0].centre);
   kept_.push_back(joined[1].centre);
   const WedgeId first_new = size();
-  // Returns the part of the wedge `whole` that belongs to w. It is a new wedge if v also keeps a
-  // part.
+  // Returns the part of the wedge `whole` that w gets. It is a new wedge if v also keeps a part.
   const auto part_at_w = [&](WedgeId whole) {
     if (whole == kNoWedge) return kNoWedge;
     if (!holds(kept_, whole)) {

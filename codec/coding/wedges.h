@@ -20,7 +20,7 @@
 namespace vitrine::inline codec {
 
 using WedgeId = std::uint32_t;
-// Stands for the wedge of corners whose faces close boundary loops.
+// The wedge of corners whose faces close boundary loops.
 inline constexpr WedgeId kNoWedge = 0xFFFF'FFFFu;
 
 struct Wedge {
@@ -37,9 +37,9 @@ struct SplitEdgeLengths {
 class Wedges {
  public:
   Wedges() = default;
-  // Returns the wedges of a base mesh. `mesh` is the connectivity of the base mesh; its first faces
-  // are those of the base mesh. Fails (kBadInput) if a wedge is out of range or belongs to several
-  // vertices, or if a coordinate is out of bounds.
+  // Returns the wedges of a base mesh. `mesh` is the connectivity of the base mesh. Its first faces
+  // are the faces of the base mesh. Fails (kBadInput) if a wedge is out of range or belongs to
+  // several vertices, or if a coordinate is out of bounds.
   static Expected<Wedges> from_base(const BaseAtlas& atlas, const Connectivity& mesh);
 
   bool empty() const { return wedge_.empty(); }
@@ -57,8 +57,7 @@ class Wedges {
 
   // Updates the wedges after Connectivity::split(v, ring, i, j), which created the vertex w and the
   // last two faces. `lengths()` returns the SplitEdgeLengths; it is called only if the split
-  // touches a seam. Coordinates do not change: both parts of a divided wedge get the coordinates of
-  // the wedge.
+  // touches a seam. Coordinates do not change: both parts of a divided wedge get its coordinates.
   template <class Lengths>
   void split(VertexId w, std::span<const Corner> ring, std::uint32_t i, std::uint32_t j,
              const Lengths& lengths) {
@@ -69,19 +68,19 @@ class Wedges {
     divide(w, ring, i, j, {first[choice.first], second[choice.second]});
   }
 
-  // Returns the wedge that the newest split divided into `part` and another one. Returns `part`
-  // itself if the split did not divide it.
+  // Returns the wedge from which the newest split made `part`. Returns `part` itself if it is older
+  // than this split.
   WedgeId whole(WedgeId part) const {
     return part < steps_.back().first_new ? part : parents_[part - first_of_chunk_];
   }
 
   // Returns the wedge from which a split of the newest chunk made `part`. Returns `part` itself if
-  // it is older than that chunk.
+  // it is older than this chunk.
   WedgeId parent(WedgeId part) const {
     return part < first_of_chunk_ ? part : parents_[part - first_of_chunk_];
   }
 
-  // Undoes the newest split that remains, which split v into v and w. Call this before
+  // Undoes the newest split that is not undone yet, which split v into v and w. Call this before
   // Connectivity::unsplit().
   void undo(const Connectivity& mesh, VertexId v, VertexId w);
 
@@ -93,18 +92,20 @@ class Wedges {
     bool operator==(const Side&) const = default;
     bool is_real() const { return centre != kNoWedge; }
   };
-  // The faces on both sides of a cut edge: the one that stays at v, then the one that goes to w.
+  // The faces on both sides of a cut edge: first the face that stays at v, then the face that goes
+  // to w.
   using Sides = std::array<Side, 2>;
   // Which side each of the two new faces joins: 0 for the face at v, 1 for the face at w.
   struct Choice {
     std::size_t first = 0, second = 0;
-    bool is_open = false;  // whether several choices remain, so that seam lengths must decide
+    bool is_open = false;  // whether there are several choices; if so, seam lengths decide
   };
   struct Saved {
     WedgeId wedge;
     Vec2i at;
   };
-  // One split, for undo(): the first of its saved coordinates, and the first wedge that it created.
+  // A split, for undo(): the indices of its first saved coordinates and of the first wedge that it
+  // created.
   struct Step {
     std::uint32_t first_saved;
     WedgeId first_new;
@@ -113,7 +114,8 @@ class Wedges {
   static std::size_t before(std::span<const Corner> ring, std::uint32_t k) {
     return (k == 0 ? ring.size() : k) - 1;
   }
-  // Returns the wedges at two corners of a face: at c, and at the corner `turns` corners after c.
+  // Returns the wedges at two corners of a face: at corner c, and at the corner `turns` steps after
+  // c.
   Side side(Corner c, int turns) const {
     return {of_corner_[c], of_corner_[turns == 1 ? next(c) : prev(c)]};
   }
@@ -130,7 +132,7 @@ class Wedges {
   std::vector<WedgeId> kept_;     // used by divide(): the wedges that v keeps
   std::vector<Step> steps_;       // one for each split of the chunk
   std::vector<Saved> saved_;      // saved coordinates of all steps
-  std::vector<WedgeId> parents_;  // for each new wedge of the chunk, the wedge that it was part of
+  std::vector<WedgeId> parents_;  // for each new wedge of the chunk, the wedge it came from
   WedgeId first_of_chunk_ = 0;    // the first new wedge of the chunk
 };
 

@@ -27,7 +27,7 @@ T load(const std::uint8_t* at, bool swap = false) noexcept {
 }
 
 // Reads numbers from untrusted bytes. A read beyond the end returns zero and makes is_ok() false
-// for good. One check after several reads is therefore enough.
+// permanently. One check after several reads is therefore enough.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
@@ -58,7 +58,7 @@ class ByteReader {
     return static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1);
   }
 
-  // Skips `count` bytes. If fewer bytes are left, skips these and makes is_ok() false.
+  // Skips `count` bytes. If fewer bytes are left, skips all of them and makes is_ok() false.
   void skip(std::uint64_t count) noexcept {
     if (count > left()) is_ok_ = false;
     position_ += std::min<std::uint64_t>(count, left());

@@ -19,6 +19,6 @@ struct Limits {
 
 inline constexpr int kMinBits = 10;
 inline constexpr int kMaxBits = 16;
-inline constexpr int kMaxSplitValence = 24;  // largest valence of a vertex that may split
+inline constexpr int kMaxSplitValence = 24;  // only vertices with at most this valence may split
 
 }  // namespace vitrine::inline codec

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An array that grows at its end in blocks of equal size. Unlike std::vector, it never moves its
-// elements: growing needs no second copy and does not fragment memory. Growing leaves at most one
-// block partly unused. Shrinking frees no blocks.
+// elements, so growing needs no second copy and does not fragment memory. At most one block is
+// partly unused after growing. Shrinking frees no blocks.
 #pragma once
 
 #include <cstddef>

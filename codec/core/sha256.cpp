@@ -51,6 +51,18 @@ void absorb(HashState& state, const std::uint8_t* block) noexcept {
     state[i] += add[i];
 }
 
+// The value of each hexadecimal digit. All other characters have a value so low that the value of a
+// pair of digits becomes negative.
+constexpr std::array<int, 256> kHexValues = [] {
+  std::array<int, 256> values{};
+  values.fill(-256);
+  for (int i = 0; i < 10; ++i)
+    values[static_cast<std::size_t>('0' + i)] = i;
+  for (int i = 0; i < 6; ++i)
+    values[static_cast<std::size_t>('a' + i)] = 10 + i;
+  return values;
+}();
+
 }  // namespace
 
 void Sha256Hasher::add(std::span<const std::uint8_t> bytes) noexcept {
@@ -108,14 +120,14 @@ std::string to_hex(const Sha256& digest) {
 
 bool from_hex(std::string_view text, Sha256& digest) noexcept {
   if (text.size() != 64) return false;
-  for (std::size_t i = 0; i < 64; ++i) {
-    const char c = text[i];
-    const bool digit = c >= '0' && c <= '9', letter = c >= 'a' && c <= 'f';
-    if (!digit && !letter) return false;
-    const int value = digit ? c - '0' : c - 'a' + 10;
-    digest[i / 2] = static_cast<std::uint8_t>(i % 2 == 0 ? value << 4 : digest[i / 2] | value);
+  int all = 0;  // negative if any pair has an invalid digit
+  for (std::size_t i = 0; i < digest.size(); ++i) {
+    const int value = kHexValues[static_cast<unsigned char>(text[2 * i])] * 16 +
+                      kHexValues[static_cast<unsigned char>(text[2 * i + 1])];
+    all |= value;
+    digest[i] = static_cast<std::uint8_t>(value);
   }
-  return true;
+  return all >= 0;
 }
 
 }  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 (FIPS 180-4). This hash names stored objects.
+// SHA-256 (FIPS 180-4). Stored objects are named by this hash.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@
 
 namespace vitrine::inline codec {
 
-// Starts the tasks in the order in which they were added. One thread must make all calls.
+// Starts the tasks in the order in which they were added. All calls must come from the same thread.
 class TaskQueue {
  public:
   struct Task {
@@ -24,17 +24,17 @@ class TaskQueue {
   // Uses at most `threads` (>= 1) threads, one of which is the caller's. The weights of all tasks
   // that wait or run add up to at most `most_weight`, unless a single task exceeds that weight.
   TaskQueue(unsigned threads, std::size_t most_weight);
-  // Drops the tasks that wait.
+  // Drops the waiting tasks. Waits for the running tasks to end.
   ~TaskQueue();
   TaskQueue(const TaskQueue&) = delete;
 
-  // Blocks until a task of this weight may be added. Runs waiting tasks in the meantime.
+  // Blocks until a task of this weight may be added. Runs waiting tasks meanwhile.
   void make_room(std::size_t weight);
   // Adds a task. If more tasks are waiting than there are worker threads, runs the oldest waiting
   // task on the caller's thread.
   void add(Task task);
-  // Runs the tasks that wait. Returns after all tasks have ended. If tasks have thrown, rethrows
-  // the first exception.
+  // Runs the waiting tasks. Returns after all tasks have ended. If tasks have thrown, rethrows the
+  // first exception.
   void finish();
 
  private:

@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 class ConvexPiece {
  public:
-  // Maximum number of corners. A cut normally adds one corner. Rounding can put corners on
-  // alternating sides of the plane; such a cut adds half as many corners as there are.
+  // Maximum number of corners. A cut normally adds one corner. If rounding puts the corners on
+  // alternating sides of the plane, a cut adds half as many corners as there are.
   static constexpr std::size_t kCapacity = 18;
 
   ConvexPiece() = default;
@@ -22,7 +22,7 @@ class ConvexPiece {
 
   std::span<const Vec3> corners() const { return corners_; }
   bool empty() const { return corners_.empty(); }
-  // Whether there is no room left for another cut.
+  // Whether there is no room for the corners that another cut may add.
   bool is_full() const { return corners_.size() + 6 > kCapacity; }
 
   Vec3 centre() const;                      // mean of the corners

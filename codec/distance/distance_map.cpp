@@ -16,7 +16,8 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kAlignSamples = 5'000;
-// Distance that rounding can give to equal surfaces, as a share of the diagonal.
+// Largest distance that rounding can cause between equal surfaces, as a share of the bounding box
+// diagonal.
 constexpr double kNoise = 1e-9;
 // Colours at -range, 0 and range, as sRGB values.
 constexpr Vec3 kBelow{33, 72, 184}, kSame{224, 224, 220}, kAbove{190, 38, 34};
@@ -37,8 +38,9 @@ std::vector<double> signed_distances(const TriangleMesh& a, const TriangleBvh& b
   return distances;
 }
 
-// Returns the absolute distance that 95 % of `distances` do not exceed. If that is rounding noise,
-// because only a small part of a surface has changed, returns the largest distance.
+// Returns the absolute distance that 95 % of `distances` do not exceed. If this distance is only
+// rounding noise, because just a small part of the surface has changed, returns the largest
+// distance.
 double usual(const std::vector<double>& distances, double noise) {
   std::vector<double> sizes(distances.size());
   std::ranges::transform(distances, sizes.begin(), [](double d) { return std::abs(d); });

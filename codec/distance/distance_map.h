@@ -18,13 +18,14 @@ Expected<TriangleMesh> aligned(const TriangleMesh& a, const TriangleMesh& b,
 
 struct DistanceMap {
   TriangleMesh mesh;  // A, with a colour for each vertex
-  double range = 0;   // the distance of the full colours, in model units
+  double range = 0;   // distance, in model units, from which red and blue are strongest
 };
 
-// Colours each vertex of A by its distance to the closest point of B: grey at 0, red at `range` and
-// more on the side to which B's face there points, blue on the other side. Without `range`, takes
-// the distance that 95 % of the vertices do not exceed, or the largest one if over 95 % lie on B.
-// Fails (kBadInput) like measure().
+// Colours each vertex of A by its distance to the closest point of B: from grey at 0 to the
+// strongest colour at `range` and more. Vertices in front of B's closest face become red, vertices
+// behind it blue. If `range` is not given, uses the distance that 95 % of the vertices do not
+// exceed, or the largest distance if over 95 % of the vertices lie on B. Fails (kBadInput) like
+// measure().
 Expected<DistanceMap> distance_map(TriangleMesh a, const TriangleMesh& b,
                                    std::optional<double> range = {});
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kSamples = 2'000;  // number of samples on each surface
 constexpr std::uint64_t kSeed = 1;
-// Number of samples with the largest distances that are kept for each surface. The triangles that
+// Per surface: how many of the samples with the largest distances are kept. The triangles that
 // contain these samples are bounded first.
 constexpr std::size_t kWorst = 32;
 constexpr double kTolerance = 1.02;
@@ -27,7 +27,7 @@ double diagonal(const TriangleBvh& bvh) {
 }
 
 struct Worst {
-  double squared, at_least;  // both as in ClosestTriangle
+  double squared, at_least;  // same meaning as in ClosestTriangle
   // `triangle` contains the sample. `nearest` is the closest triangle of the other surface.
   std::uint32_t triangle, nearest;
 };
@@ -85,7 +85,8 @@ TriangleBvh consume(TriangleMesh mesh) {
 }
 
 LevelError result(const HausdorffBound& bound, std::uint32_t regions, double rms) {
-  LevelError error{.max_error = bound.bound(), .rms_error = rms, .region_errors = {}};
+  LevelError error{
+      .max_error = bound.bound(), .rms_error = rms, .region_errors = {}, .cuts = bound.cuts()};
   for (std::uint32_t k = 0; k < regions; ++k)
     error.region_errors.push_back(bound.bound(k));
   return error;

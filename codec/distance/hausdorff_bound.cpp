@@ -9,10 +9,11 @@ namespace vitrine::inline codec {
 namespace {
 
 // A piece counts as much larger than its witness if radius^4 > kManyWitnesses * (2 * area of the
-// witness)^2. Such a piece is not cut along the witness's edges.
+// witness)^2. Such a piece is not cut along the witness's edges. If the target is slender
+// (triangle_bvh.h), the square of the witness's longest edge replaces 2 * area.
 constexpr double kManyWitnesses = 16;
-// The source counts as finer than the target if it has at least kFine times as many triangles.
-// Then, the distance to one witness may bound a whole triangle of the source.
+// The source counts as finer than the target if it has at least kFine times as many triangles. If
+// it is finer, the distance to one witness may bound a whole triangle of the source.
 constexpr std::size_t kFine = 2;
 // Largest radius, as a share of limit(), of a piece that one exact distance can settle.
 constexpr double kOneDistance = 0.9;
@@ -31,6 +32,13 @@ Vec3 centre_of(const TrianglePoints& t) {
 double squared_area(const TrianglePoints& t) {
   const Vec3 normal = normal_of(t);
   return dot(normal, normal);
+}
+
+// Returns the fourth power of the length of the triangle's longest edge.
+double fourth_power_of_longest_edge(const TrianglePoints& t) {
+  const Vec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
+  const double squared = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
+  return squared * squared;
 }
 
 // Returns the square root of twice the mean triangle area. Uses every 64th triangle.
@@ -59,8 +67,8 @@ std::uint16_t leaf_region(const RegionedSurface& surface, const TriangleBvh::Nod
   return first;
 }
 
-// Computes the region of each node from those of its children. Runs backwards, because children
-// have higher indices than their parents.
+// Computes the region of each node from the regions of its children. Runs backwards, because
+// children have higher indices than their parents.
 std::vector<std::uint16_t> node_regions(const RegionedSurface& surface) {
   const std::span<const TriangleBvh::Node> nodes = surface.bvh.nodes();
   std::vector<std::uint16_t> out(nodes.size(), 0);
@@ -187,7 +195,9 @@ void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   const TrianglePoints triangle = all.source.bvh.triangle(t);
   const Vec3 centre = centre_of(triangle);
   last_ = target_->stroll(centre, last_);
-  if (is_source_finer_ && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
+  // A coarse precision often needs neither a patch nor a search.
+  const bool is_easy = is_source_finer_ || is_coarse_;
+  if (is_easy && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
   if (limit() > wide_) return cover(ConvexPiece(triangle), last_);
   if (lay_patch(all, triangle, t)) return;
   // The walk from triangle to triangle may have ended on another sheet of the surface. Therefore
@@ -201,8 +211,8 @@ void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   cover(ConvexPiece(triangle), last_);
 }
 
-// Tries to cover triangle t of the source by a patch that starts at the last witness. Returns
-// whether this succeeded.
+// Tries to cover triangle t of the source by a patch that starts at the last witness. Returns true
+// on success.
 bool HausdorffBound::lay_patch(Visit& all, const TrianglePoints& triangle, std::uint32_t t) {
   const PatchCover::CoverResult patch =
       all.patches.cover(triangle, t, last_, limit(), static_cast<std::uint16_t>(region_ + 1));
@@ -210,7 +220,7 @@ bool HausdorffBound::lay_patch(Visit& all, const TrianglePoints& triangle, std::
   return patch.is_covered;
 }
 
-// Tries to bound all triangles in a box by one witness. Returns whether this succeeded.
+// Tries to bound all triangles in a box by one witness. Returns true on success.
 bool HausdorffBound::settle_box(const TriangleBvh::Node& n) {
   const Vec3 low{n.low[0], n.low[1], n.low[2]}, high{n.high[0], n.high[1], n.high[2]};
   if (length(high - low) > limit()) return false;
@@ -237,21 +247,42 @@ bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness
   return true;
 }
 
+// Bounds the piece, and then its parts one after the other. The parts wait on a stack of their own,
+// because a recursion would be as deep as the surface makes it.
 void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
+  open_.push_back({piece, start, kUncut});
+  while (!open_.empty()) {
+    const OpenPiece next = open_.back();
+    open_.pop_back();
+    if (next.cuts == kUncut) {
+      choose_witness(next.piece, next.witness);
+    } else {
+      cut(next);
+    }
+  }
+}
+
+// Finds a witness near the piece. If it does not settle the piece, chooses how to divide the piece.
+void HausdorffBound::choose_witness(const ConvexPiece& piece, std::uint32_t start) {
   const Vec3 centre = piece.centre();
   const std::uint32_t witness = last_ = target_->walk(centre, start);
   if (settle(piece.corners(), witness)) return;
   const double radius = piece.radius(centre);
-  const double area = squared_area(target_->triangle(witness));
-  const bool much_larger = radius * radius * radius * radius > kManyWitnesses * area;
-  if (!much_larger) return cut(piece, witness, kCuts);
-  // A walk may end at a triangle without area. The size of such a triangle is no indication of the
-  // size of its neighbours.
-  if (radius > limit() * kOneDistance && area > 0) return halve(piece, witness);
+  const TrianglePoints triangle = target_->triangle(witness);
+  const bool slender = target_->is_slender();
+  const double size = slender ? fourth_power_of_longest_edge(triangle) : squared_area(triangle);
+  const bool much_larger = radius * radius * radius * radius > kManyWitnesses * size;
+  if (!much_larger) return cut({piece, witness, slender ? kSlenderCuts : kCuts});
+  // A walk may end at a triangle without area, whose size says nothing about the sizes of its
+  // neighbours.
+  if (radius > limit() * kOneDistance && size > 0) return halve(piece, witness);
   examine(piece, witness);
 }
 
-void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cuts) {
+// Cuts a part off the piece, unless the witness settles the piece. The part that keeps the witness
+// may have to be cut as well, but only along the witness's other edges.
+void HausdorffBound::cut(const OpenPiece& open) {
+  const auto& [piece, witness, cuts] = open;
   if (settle(piece.corners(), witness)) return;
   const OverhungEdge edge = most_overhung(piece, *target_, witness);
   const double slack = kSlack * limit();
@@ -259,11 +290,14 @@ void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cu
   const auto [point, normal] = target_->bisector(witness, edge.index);
   const ConvexPiece::Parts parts = piece.cut(point, normal, slack);
   if (parts.back.empty()) return examine(piece, witness);
-  if (!parts.front.empty()) cut(parts.front, witness, cuts - 1);
-  cut(parts.back, target_->across(witness, edge.index), cuts - 1);
+  ++cuts_;
+  const int left = cuts - 1;
+  if (left >= kCuts && left % kCuts == 0) spend();
+  open_.push_back({parts.back, target_->across(witness, edge.index), left});
+  if (!parts.front.empty()) open_.push_back({parts.front, witness, left});
 }
 
-// Bounds a piece by exact distances. Used if no nearby witness gives a good enough bound.
+// Bounds a piece by exact distances, because no nearby witness gives a good enough bound.
 void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   spend();
   const Vec3 centre = piece.centre();
@@ -285,24 +319,25 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   halve(piece, middle.triangle);
 }
 
-// Finds the closest triangle of the target. A search that visits many nodes counts as more work.
+// Finds the closest triangle of the target. Counts the visited nodes as work.
 ClosestTriangle HausdorffBound::search(const Vec3& p, std::uint32_t hint) {
   const ClosestTriangle found = target_->closest(p, hint);
-  if (found.visited > kUsualNodes) spent_ += found.visited / kNodesPerPiece;
+  spent_ += found.visited / kNodesPerUnit;
   return found;
 }
 
-// Counts one unit of work. Lowers the precision once much work is done. Each later lowering takes
-// less work than the one before. The total time is therefore bounded, even if the surfaces cross or
-// coincide.
+// Counts one unit of work. Lowers the precision after a certain amount of work. The total time is
+// therefore bounded, even if the surfaces cross or coincide. Starts from limit(), because a
+// precision finer than the largest known distance would save no work.
 void HausdorffBound::spend() {
-  if (++spent_ <= (kWork + 4 * target_->size()) >> (2 * losses_)) return;
-  negligible_ *= 2, spent_ = 0;
-  losses_ = std::min(losses_ + 1, kMostLosses);
+  const std::size_t most = (kWork + target_->size()) / (is_coarse_ ? kLaterWork : 1);
+  if (++spent_ <= most) return;
+  negligible_ = kCoarser * limit(), spent_ = 0, is_coarse_ = true;
 }
 
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
   spend();
+  ++cuts_;
   const ConvexPiece::Parts parts = piece.halves();
   // A cut yields an empty part if the piece is so small that doubles cannot resolve it.
   if (parts.front.empty() || parts.back.empty()) {
@@ -310,8 +345,8 @@ void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
     raise(std::sqrt(search(centre, start).squared) + piece.radius(centre));
     return;
   }
-  cover(parts.front, start);
-  cover(parts.back, start);
+  open_.push_back({parts.back, start, kUncut});
+  open_.push_back({parts.front, start, kUncut});
 }
 
 }  // namespace vitrine::inline codec

@@ -13,9 +13,9 @@
 // triangles are much smaller than the limit, a few exact distances settle a triangle of the source
 // faster than a patch.
 //
-// Surfaces with sheets that cross or coincide can need very many pieces: one for each square whose
-// side equals the precision. The precision is therefore lowered as the work grows, which bounds the
-// work.
+// Surfaces with sheets that cross or coincide can need very many pieces, because pieces must become
+// as small as the precision. The precision is therefore lowered as the work grows, which bounds the
+// work. The bound remains an upper bound, but is less tight.
 #pragma once
 
 #include <algorithm>
@@ -38,8 +38,8 @@ struct RegionedSurface {
   // Per vertex of `bvh`: its region, numbered from 0. Empty if all vertices are in region 0.
   std::vector<std::uint16_t> region;
 
-  // Returns the regions of a triangle's corners. The distinct regions come first. The last of them
-  // is repeated to fill the array.
+  // Returns the regions of a triangle's corners. Each different region comes once; the last one is
+  // repeated to fill the array.
   std::array<std::uint16_t, 3> regions(std::uint32_t triangle) const {
     if (region.empty()) return {};
     const Triangle& f = bvh.faces()[triangle];
@@ -89,19 +89,26 @@ class HausdorffBound {
     return std::max(regions_[region].known, regions_[region].bound);
   }
 
+  // Returns the number of cuts of pieces so far, a measure of the work.
+  std::uint64_t cuts() const { return cuts_; }
+
  private:
   // Maximum number of successive cuts of a piece. Without this limit, rounding could cause endless
   // cuts.
   static constexpr int kCuts = 16;
-  // The precision is halved for the first time after kWork + 4 * (faces of the target) pieces.
-  static constexpr std::size_t kWork = 65'536;
-  // If a search of the target visits more than kUsualNodes nodes, each kNodesPerPiece nodes count
-  // as one more piece. Such searches occur near vertices and edges of the target: all triangles
-  // around them are equally close to points beyond them.
-  static constexpr std::uint32_t kUsualNodes = 256, kNodesPerPiece = 64;
-  // After each halving of the precision, the number of pieces until the next halving is divided by
-  // 4. After kMostLosses halvings, this number stays the same.
-  static constexpr unsigned kMostLosses = 4;
+  // The same limit for a slender target, which has long triangles side by side (triangle_bvh.h). A
+  // piece over n such triangles needs n - 1 cuts. Halving would need about n^2 pieces, because
+  // halves are as long as they are wide. Each kCuts cuts count as one unit of work.
+  static constexpr int kSlenderCuts = 1'024;
+  // The precision is lowered for the first time after kWork + (faces of the target) units of work,
+  // and then after each further 1 / kLaterWork of this. Usual surfaces need less than a sixth.
+  static constexpr std::size_t kWork = 16'384, kLaterWork = 4;
+  // Each time, pieces may have kCoarser times the previous bound.
+  static constexpr double kCoarser = 1.5;
+  // A piece counts as one unit of work, and so do kNodesPerUnit nodes that searches visit. Searches
+  // are long for points beyond a vertex or an edge of the target, because all triangles around this
+  // vertex or edge are equally close, and among triangles that cross.
+  static constexpr std::uint32_t kNodesPerUnit = 64;
 
   // A region's bound is not refined below this share of the largest distance known in any region.
   static constexpr double kSmallShare = 0.2;
@@ -112,6 +119,13 @@ class HausdorffBound {
   void raise(double distance) {
     regions_[region_].bound = std::max(regions_[region_].bound, distance);
   }
+  // A piece that still has to be bounded.
+  struct OpenPiece {
+    ConvexPiece piece;
+    std::uint32_t witness;
+    int cuts;  // how often the piece may still be cut, or kUncut before its witness is chosen
+  };
+  static constexpr int kUncut = -1;
   struct Visit;
   void visit(Visit& visit, std::uint32_t node);
   void visit_triangle(Visit& visit, std::uint32_t triangle);
@@ -121,7 +135,8 @@ class HausdorffBound {
   void approach(const Vec3& p);
   bool settle(std::span<const Vec3> corners, std::uint32_t witness);
   void cover(const ConvexPiece& piece, std::uint32_t start);
-  void cut(const ConvexPiece& piece, std::uint32_t witness, int cuts);
+  void choose_witness(const ConvexPiece& piece, std::uint32_t start);
+  void cut(const OpenPiece& open);
   void examine(const ConvexPiece& piece, std::uint32_t witness);
   ClosestTriangle search(const Vec3& p, std::uint32_t hint);
   void spend();
@@ -133,17 +148,19 @@ class HausdorffBound {
   };
   std::vector<Region> regions_;
   std::uint16_t region_ = 0;
-  double known_ = 0;       // largest distance known in any region
-  std::size_t spent_ = 0;  // pieces examined or halved at the current precision
-  unsigned losses_ = 0;
+  double known_ = 0;        // largest distance known in any region
+  std::size_t spent_ = 0;   // units of work at the current precision
+  bool is_coarse_ = false;  // whether the precision has been lowered
+  std::uint64_t cuts_ = 0;
   const WitnessSurface* target_ = nullptr;
-  // Whether the source has at least kFine times as many triangles as the target. Then, the distance
-  // to one witness may bound several triangles.
+  // Whether the source has at least kFine times as many triangles as the target. If so, the
+  // distance to one witness may bound several triangles.
   bool is_source_finer_ = false;
   // kWide times the width of the target's triangles. If limit() exceeds this, exact distances are
   // used instead of patches.
   double wide_ = 0;
-  std::uint32_t last_ = 0;  // the last witness, where the next search starts
+  std::vector<OpenPiece> open_;  // the piece to be bounded next is the last one
+  std::uint32_t last_ = 0;       // the last witness, where the next search starts
 };
 
 }  // namespace vitrine::inline codec

@@ -20,6 +20,9 @@ constexpr float kFarthest = 1e5f;
 // prism.
 constexpr double kLeastArea = 1e-6;
 constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0};
+// Largest number of triangles in a patch of a slender surface (triangle_bvh.h). Without this limit,
+// almost every triangle around one vertex could reach into the prism.
+constexpr std::uint32_t kMostSlender = 256;
 
 double longest_edge(const TrianglePoints& t) {
   const Vec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
@@ -58,8 +61,8 @@ struct PatchCover::Prism {
   // Twice the triangle's area in squared units of the prism, and the reciprocal of this, rounded
   // up.
   float twice_area = 0, per_area = 0;
-  // Lane 0 holds the normal and the offset of the triangle's plane. Lanes 1 to 3 hold those of the
-  // walls.
+  // Lane 0 holds the normal and the offset of the triangle's plane. Lanes 1 to 3 hold the normals
+  // and offsets of the walls.
   Lanes x{}, y{}, z{}, offset{};
   Lanes centre{};
 
@@ -146,7 +149,8 @@ bool PatchCover::lay(const Prism& prism, std::uint32_t start) {
   const OpenTriangle first{start, 0, prism.place(surface_.point(start, 0)),
                            prism.place(surface_.point(start, 1))};
   if (!step(prism, first) || !cross_edge(prism, start, 0, first.from, first.to)) return false;
-  while (!open_.empty()) {
+  for (std::uint32_t size = 1; !open_.empty(); ++size) {
+    if (size == kMostSlender && surface_.is_slender()) return false;
     const OpenTriangle open = open_.back();
     open_.pop_back();
     if (!step(prism, open)) return false;
@@ -155,8 +159,8 @@ bool PatchCover::lay(const Prism& prism, std::uint32_t start) {
 }
 
 // Returns an upper bound of a triangle's height inside the prism. Tries three bounds until one is
-// within the limit: the largest height of the corners, the height of the triangle's plane, and the
-// height of the triangle's part inside the walls.
+// within the limit: the largest height of the corners, the height of the triangle's plane over the
+// prism, and the height of the triangle's part inside the walls.
 float PatchCover::height(const Prism& prism, const OpenTriangle& open,
                          const PrismPoint& apex) const {
   const float corners = std::max({open.from.height(), open.to.height(), apex.height()});
@@ -210,8 +214,8 @@ bool PatchCover::step(const Prism& prism, const OpenTriangle& open) {
   return cross_edge(prism, t, next, to, apex) && cross_edge(prism, t, last, apex, from);
 }
 
-// Adds +1 or -1 to the degree of the patch if the triangle lies over the centre. Returns false if
-// rounding makes this uncertain.
+// Adds +1 or -1 to the degree of the patch if the triangle lies over the point `centre`. Returns
+// false if rounding makes this uncertain.
 bool PatchCover::count(const PrismPoint& a, const PrismPoint& b, const PrismPoint& c,
                        const Lanes& centre) {
   const float one = area(a.at, b.at, centre), two = area(b.at, c.at, centre),

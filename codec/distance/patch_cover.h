@@ -20,15 +20,15 @@
 
 namespace vitrine::inline codec {
 
-// Records which triangles of a surface are close to triangles that were covered by patches.
+// Records which triangles of a surface are close to triangles that patches have covered.
 struct Overlaps {
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
-  // Per triangle of the surface: the mark of the last cover() call that found the whole triangle
-  // within `limit` of the covered triangle; 0 if there was no such call.
+  // Per triangle of the surface: the mark passed to the last cover() call that found the whole
+  // triangle within `limit` of the covered triangle. It is 0 if there was no such call.
   std::vector<std::uint16_t> mark;
-  // Per triangle: number, counted from 1, of the last cover() call whose patch included the
-  // triangle; 0 if there was no such call.
+  // Per triangle: the number, counted from 1, of the last cover() call whose patch included the
+  // triangle. It is 0 if there was no such call.
   std::vector<std::uint32_t> met;
   std::vector<std::uint32_t> calls;  // per call: covered triangle, or kNone if cover() failed
 
@@ -74,8 +74,8 @@ class PatchCover {
     float height() const { return std::abs(at[0]) + slack; }
   };
   static constexpr unsigned kBeyond = 7;  // bit k: the point is certainly beyond wall k + 1
-  // Two bits per wall: the point is certainly farther from the wall than `centre`, or certainly
-  // closer.
+  // Two bits per wall: the point is certainly farther from the wall than Prism::centre, or
+  // certainly closer.
   static constexpr unsigned kAside = 63 << 3;
   static constexpr unsigned kFar = 1 << 9;  // the point is farther from corner a than kFarthest
   // A triangle still to be examined. `edge` is the edge across which the patch reached the

@@ -37,8 +37,8 @@ Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
                                   const MeasureOptions& options = {});
 
 // Returns the larger rms distance of the two directions. Takes bounding volume hierarchies, so that
-// a caller who measures a surface several times builds each only once. Both surfaces must have at
-// least one face.
+// a caller that measures one surface several times builds its hierarchy only once. Both surfaces
+// must have at least one face.
 double rms_distance(const TriangleBvh& a, const TriangleBvh& b, const MeasureOptions& options = {});
 
 }  // namespace vitrine::inline codec

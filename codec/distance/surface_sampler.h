@@ -15,8 +15,8 @@ struct SurfaceSample {
   std::uint32_t triangle;  // index of the triangle that contains the point
 };
 
-// Returns stratified samples: the area is divided into `count` equal shares in the order of
-// triangles, and sample i lies in share i. Returns no samples if the surface has no triangle. If
+// Returns stratified samples: divides the area into `count` equal shares, in the order of the
+// triangles, and draws sample i from share i. Returns no samples if the surface has no triangle. If
 // the area is zero, all samples lie in the last triangle.
 std::vector<SurfaceSample> sample_surface(const TriangleBvh& surface, std::size_t count,
                                           std::uint64_t seed);

@@ -11,7 +11,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr int kMaxSteps = 64;  // maximum number of steps in a walk
-// relative error of distances allowed in searches of slender surfaces
+// allowed relative error of distances in searches of slender surfaces
 constexpr double kPrecision = 0.02;
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
 // A triangle is thin if the squared ratio of its width to its length is at most kThin.
@@ -23,7 +23,7 @@ Vec3 inward(const TrianglePoints& t, const Vec3& normal, std::uint32_t k) {
   return cross(normal, corner(t, (k + 1) % 3) - corner(t, k));
 }
 
-// A triangle with functions that measure points in its plane, as seen along its normal.
+// A triangle that measures points after projecting them onto the triangle's plane.
 struct SeenAlongNormal {
   TrianglePoints corners;
   std::array<Vec3, 3> edge;
@@ -120,7 +120,7 @@ std::uint32_t WitnessSurface::stroll(const Vec3& p, std::uint32_t start) const {
     const SeenAlongNormal seen(triangle(at));
     const std::array<double, 3> depth = seen.depth(p);
     std::uint32_t next = at;
-    double most = 0, of = 1;  // the largest squared distance beyond an edge is most / of
+    double most = 0, of = 1;  // most / of: the largest squared distance beyond an edge so far
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (!(depth[k] < 0)) continue;
       const double size = seen.squared_length(k);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface whose triangles serve as witnesses. A witness is a triangle whose distance is an upper
-// bound of the distance to the whole surface.
+// A surface whose triangles serve as witnesses. The distance from a point to a witness triangle is
+// an upper bound of the point's distance to the whole surface.
 #pragma once
 
 #include <array>
@@ -23,18 +23,20 @@ class WitnessSurface {
 
   std::size_t size() const { return across_.size(); }
   TrianglePoints triangle(std::uint32_t t) const { return bvh_->triangle(t); }
+  // Whether the surface has many long triangles side by side (triangle_bvh.h).
+  bool is_slender() const { return bvh_->is_slender(); }
   // Returns corner k of triangle t.
   const Vec3& point(std::uint32_t t, std::uint32_t k) const { return bvh_->point(t, k); }
   // Returns the triangle across an edge of t, or t itself if the edge is a border edge. Edge k runs
   // from corner k to the next corner.
   std::uint32_t across(std::uint32_t t, std::uint32_t edge) const { return across_[t][edge] / 3; }
-  // Returns the index, 0 to 2, that this edge has in the triangle across it.
+  // Returns the index, 0 to 2, that an edge of t has in the triangle across this edge.
   std::uint32_t edge_across(std::uint32_t t, std::uint32_t edge) const {
     return across_[t][edge] % 3;
   }
 
-  // Returns the largest distance from any of `points` to triangle t. Returns infinity, which is
-  // much faster, if that distance exceeds `most`.
+  // Returns the largest distance from any of `points` to triangle t. Returns infinity if that
+  // distance exceeds `most`, which saves much time.
   double farthest_within(std::span<const Vec3> points, std::uint32_t t, double most) const;
 
   // Returns, for each edge of t, how far p lies beyond the edge, as seen along the normal of t.

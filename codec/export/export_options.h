@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "codec/core/vec.h"
+#include "codec/export/coarser_level.h"
 #include "codec/mesh/up_axis.h"
 
 namespace vitrine::inline codec {
@@ -17,7 +18,7 @@ namespace vitrine::inline codec {
 enum class Normals { kSmooth, kNone };
 
 // The statements of a file about its content. Texts may have any bytes: writers replace control
-// characters by blanks and shorten long texts. Empty texts are left out.
+// characters by spaces and shorten long texts. Empty texts are left out.
 struct FileDescription {
   std::string title, creator, rights, licence;
   std::string source;                       // URL of the model's page
@@ -27,13 +28,6 @@ struct FileDescription {
 
 // The compression of GLB files: none, EXT_meshopt_compression or KHR_draco_mesh_compression.
 enum class Compression { kNone, kMeshopt, kDraco };
-
-// The grid to which a compressed file may round positions: origin + step * integer, in the
-// positions' unit.
-struct ExportGrid {
-  Vec3 origin;
-  double step = 1;  // > 0 and finite
-};
 
 struct ExportOptions {
   std::string_view unit = {};  // unit of the positions; empty if it is unknown
@@ -51,6 +45,11 @@ struct ExportOptions {
   // rounds them to 24 bits per coordinate of the bounding box.
   Compression compression = Compression::kNone;
   std::optional<ExportGrid> grid = {};
+  // For GLB files only: coarser levels of the same model, from fine to coarse. The file then has a
+  // node for each level, as the glTF extension MSFT_lod prescribes. All levels share the material
+  // and the pictures of the finest level. Programs that do not know the extension show the finest
+  // level.
+  std::span<const CoarserLevel> coarser = {};
 };
 
 }  // namespace vitrine::inline codec

@@ -15,10 +15,11 @@ struct GlbExtensions {
   std::vector<std::string_view> used, required;
 };
 
-// Writes the member "asset", followed by a comma. It has the version, a copyright message and, as
-// extras under the names that Sketchfab uses, the statements of statements_of(). If there is any
-// descriptive text, also writes a KHR_xmp_json_ld packet after "asset" and refers to it. `options`
-// must be those of the file.
+// Writes the member "asset", followed by a comma. The member has the version, a copyright message
+// and the extras: the values of statements_of() under the names that Sketchfab uses. If there is
+// any descriptive text, also writes a KHR_xmp_json_ld packet after "asset", to which "asset"
+// refers. `options.unit` must be the unit of the file, and the error in `options` must be in this
+// unit.
 void put_asset(FileWriter& json, const ExportOptions& options, GlbExtensions& extensions);
 
 // Writes the members "extensionsUsed" and "extensionsRequired", each followed by a comma, if they

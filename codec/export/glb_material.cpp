@@ -115,8 +115,8 @@ class MaterialWriter {
     return static_cast<std::size_t>(std::ranges::lower_bound(list, element) - list.begin());
   }
 
-  // Writes a member that refers to a texture. `factor` is the name and value of a factor, which is
-  // left out if it is 1.
+  // Writes a member that refers to a texture. `factor` and `value` are the name and the value of a
+  // factor, which is left out if its value is 1.
   void put_map(std::string_view name, const std::optional<TextureMap>& map,
                std::string_view factor = {}, double value = 1) {
     if (!map) return;

@@ -29,7 +29,7 @@ struct GlbStream {
   ComponentType component = ComponentType::kFloat;
   std::uint32_t components = 3;  // number of components per element
   bool is_normalised = false;
-  std::size_t count = 0, stride = 0;  // number of elements, and bytes from one to the next
+  std::size_t count = 0, stride = 0;  // number of elements; bytes per element with padding
   // The bytes of the elements, in compressed form if `mode` is not empty.
   std::vector<std::uint8_t> bytes;
   std::string_view mode = {}, filter = {};  // values for EXT_meshopt_compression
@@ -50,12 +50,13 @@ struct GlbSource {
 // the mesh, else 16 bits.
 std::vector<GlbStream> exact_streams(const GlbSource& source);
 
-// Returns the attributes of exact_streams() in forms that EXT_meshopt_compression compresses well,
-// and whether they need KHR_mesh_quantization. Positions are rounded to `grid`. If the grid has at
-// most 65,536 points along each axis, positions are grid coordinates in 16 bits; `source.place`
-// must then be a grid point, with all positions at or above it on each axis. On larger grids,
-// positions are floats with as few significant bits as the grid needs. Without a grid, positions
-// are exact. Normals have 8 bits per component. Texture coordinates from 0 to 1 have 16 bits.
+// Returns the attributes of exact_streams() in forms that EXT_meshopt_compression compresses well.
+// Positions are rounded to `grid`: to grid coordinates in 16 bits if `has_short_positions`, else to
+// floats with as few significant bits as the grid needs. Without a grid, positions are exact.
+// Normals have 8 bits per component. Texture coordinates from 0 to 1 have 16 bits.
+//
+// If `has_short_positions`, `source.place` must be a grid point that is at or below all positions
+// on each axis, and the mesh must span at most 65,536 grid points along each axis.
 std::vector<GlbStream> packed_streams(const GlbSource& source,
                                       const std::optional<ExportGrid>& grid,
                                       bool has_short_positions);

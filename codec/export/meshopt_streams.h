@@ -6,7 +6,8 @@
 
 namespace vitrine::inline codec {
 
-// Orders faces and vertices so that they compress well. The faces must be of one material.
+// Orders faces and vertices so that they compress well. All faces must have the same material,
+// because the new order would mix the faces of different materials.
 void order_for_meshopt(SeamVertices& vertices);
 
 // Both functions compress the bytes of a stream and set its `mode`. An attribute with the filter

@@ -23,7 +23,7 @@ CornerBits bits_of(const Texturing& texturing, std::size_t face, std::size_t k) 
 SeamVertices split_at_seams(const TriangleMesh& mesh, const Texturing& texturing) {
   constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
   SeamVertices out;
-  // The new vertices of one old vertex form a linked list. `newest` holds the head of each list,
+  // The new vertices of one old vertex form a linked list. `newest` holds the first of each list,
   // and `before` links each new vertex to the previous one.
   std::vector<std::uint32_t> newest(mesh.positions.size(), kNone), before;
   std::vector<CornerBits> bits;  // per new vertex: the bits of its coordinates

@@ -7,7 +7,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Largest number of bytes of a text. Some readers of PLY refuse lines of more than 1,023 bytes.
+// Largest number of bytes in a statement's text. Some readers of PLY refuse lines of more than
+// 1,023 bytes.
 constexpr std::size_t kMostBytes = 400;
 
 std::size_t character_bytes(std::string_view text) {

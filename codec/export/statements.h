@@ -20,7 +20,8 @@ struct Statement {
 
 // Returns the statements of a file, in this order: unit, up, title, creator, rights, licence,
 // source, level and error. Omits values that are not known, but states an unknown unit as
-// "unknown". `options.unit` and the unit of `options.about.error` must be those of the file.
+// "unknown". `options.unit` must be the unit of the file, and `options.about.error` must be in this
+// unit.
 std::vector<Statement> statements_of(const ExportOptions& options);
 
 // Returns the text as one line of at most 400 bytes of UTF-8. Does not cut within a character.

@@ -20,7 +20,7 @@ constexpr std::string_view kMaterialStart = R"(
 constexpr std::string_view kShaderEnd = "        }\n";
 constexpr std::string_view kMaterialEnd = "    }\n";
 
-// Reads the colours of vertices.
+// Shader that reads the vertex colours.
 constexpr std::string_view kColourReader = R"(
         def Shader "colours"
         {
@@ -29,7 +29,7 @@ constexpr std::string_view kColourReader = R"(
             float3 outputs:result
         }
 )";
-// Reads the texture coordinates.
+// Shader that reads the texture coordinates.
 constexpr std::string_view kCoordinateReader = R"(
         def Shader "coordinates"
         {
@@ -50,7 +50,8 @@ constexpr Sampling kSamplings[] = {{&Material::base_colour_map, "base_colour", "
                                    {&Material::occlusion_map, "occlusion", "raw"},
                                    {&Material::emission_map, "emission", "sRGB"}};
 
-// An input of the surface, and the channel of a picture that it takes if the material has the map.
+// An input of the surface shader. If the material has the map, the input gets its values from this
+// channel of the map's picture.
 struct MappedInput {
   MapOfMaterial map;
   std::string_view input, channel;
@@ -106,7 +107,7 @@ void put_sampling(FileWriter& out, const Sampling& sampling, const TextureMap& m
   out.text("            token inputs:sourceColorSpace = "), out.quoted(sampling.colour_space);
   out.text("\n");
   put_wrap(out, "wrapS", map.wrap_u), put_wrap(out, "wrapT", map.wrap_v);
-  if (sampling.map == &Material::normal_map) {  // bytes to -1 … 1
+  if (sampling.map == &Material::normal_map) {  // maps 0 … 1 to -1 … 1
     out.text(
         "            float4 inputs:scale = (2, 2, 2, 1)\n"
         "            float4 inputs:bias = (-1, -1, -1, 0)\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes 3MF [3MF]: a package with one object. Vertex colours are a colour group of the materials
-// extension, in which colour i is that of vertex i. 3MF has no normals.
+// extension, whose colour i belongs to vertex i. 3MF has no normals.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -36,13 +36,13 @@ constexpr std::string_view kNamespaces =
 using NamePair = std::pair<std::string_view, std::string_view>;
 constexpr NamePair kUnitNames[] = {
     {"mm", "millimeter"}, {"cm", "centimeter"}, {"m", "meter"}, {"in", "inch"}};
-// Statements, and the names that 3MF has for them.
+// Names of statements, each with its metadata name in 3MF.
 constexpr NamePair kMetadataNames[] = {{"title", "Title"},
                                        {"creator", "Designer"},
                                        {"rights", "Copyright"},
                                        {"licence", "LicenseTerms"}};
 
-// Returns the name of 3MF, or an empty string if it has none.
+// Returns the name that 3MF has for `own`, or an empty string if there is none.
 std::string_view name_in_3mf(std::span<const NamePair> names, std::string_view own) {
   const auto found = std::ranges::find(names, own, &NamePair::first);
   return found == names.end() ? std::string_view() : found->second;
@@ -62,7 +62,7 @@ void put_metadatum(FileWriter& out, std::string_view name, std::string_view text
   out.text(escape_html(text)), out.text("</metadata>\n");
 }
 
-// The statements for which 3MF has no name are in the description.
+// Writes the statements as metadata. Statements for which 3MF has no name go into the description.
 void put_metadata(std::span<const Statement> statements, FileWriter& out) {
   std::string description;
   for (const auto& [name, text] : statements) {
@@ -104,7 +104,7 @@ void put_vertices(const TriangleMesh& mesh, FileWriter& out) {
 void put_triangles(const TriangleMesh& mesh, bool is_coloured, FileWriter& out) {
   out.text("<triangles>\n");
   for (const auto& [a, b, c] : mesh.faces) {
-    if (a == b || b == c || c == a) continue;  // 3MF forbids them; they have no area
+    if (a == b || b == c || c == a) continue;  // 3MF forbids triangles with equal corners
     out.text("<triangle"), put_number(out, "v1", a), put_number(out, "v2", b);
     put_number(out, "v3", c);
     if (is_coloured) {
@@ -116,8 +116,8 @@ void put_triangles(const TriangleMesh& mesh, bool is_coloured, FileWriter& out) 
   out.text("</triangles>\n");
 }
 
-// The object has the type "model", although a surface may be open: slicers repair it, but do not
-// load other types.
+// The object has the type "model", although its surface may be open. Slicers repair open surfaces
+// of this type, and do not load other types.
 void put_object(const TriangleMesh& mesh, std::string_view title, FileWriter& out) {
   const bool is_coloured = !mesh.attributes.colours.empty();
   if (is_coloured) put_colour_group(mesh.attributes.colours, out);
@@ -156,7 +156,7 @@ FileBytes bytes_of_text(std::string_view text) {
 }  // namespace
 
 Expected<FileBytes> write_3mf(const TriangleMesh& mesh, const ExportOptions& options) {
-  // zip() would refuse the text as well, but only after it has been written to memory.
+  // zip() has the same limit, but would check it only after the whole text is in memory.
   if (expected_size(mesh) > std::numeric_limits<std::uint32_t>::max())
     return fail(ErrorCode::kLimit, "the mesh is too large for 3MF; ask for fewer triangles");
   const MeshFile parts[] = {{"[Content_Types].xml", bytes_of_text(kContentTypes)},

@@ -5,29 +5,23 @@
 // node's translation. The translation is decimal text, so it has more digits than a float. A
 // textured mesh has texture coordinates instead of colours, and its pictures are in the file. All
 // vertices into which a seam splits a vertex have the same normal.
+//
+// With coarser levels, the file has one node and one mesh for each level (MSFT_lod of [glTF]). The
+// data of the coarsest level and the pictures come first in the file, so that a program that loads
+// the file in parts can show them early.
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <string>
 
-#include "codec/export/draco_primitive_writer.h"
-#include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/glb_description.h"
 #include "codec/export/glb_material.h"
-#include "codec/export/glb_streams.h"
-#include "codec/export/meshopt_streams.h"
-#include "codec/export/seam_vertices.h"
+#include "codec/export/glb_mesh.h"
+#include "codec/export/screen_coverage.h"
 #include "codec/export/writers.h"
+#include "codec/mesh/vertex_normals.h"
 
 namespace vitrine::inline codec {
 namespace {
-
-// The faces that use a material: `count` consecutive faces of the file, from index `first` on.
-struct Primitive {
-  std::uint16_t material = 0;
-  std::size_t first = 0, count = 0;
-};
 
 std::size_t padded(std::size_t bytes) {
   return (bytes + 3) / 4 * 4;
@@ -47,26 +41,40 @@ std::string_view element_type_of(const GlbStream& stream) {
   return kTypes[stream.components - 1];
 }
 
-SeamVertices unsplit(const TriangleMesh& mesh) {
-  SeamVertices all{.faces = mesh.faces, .original = {}, .coordinates = {}};
-  all.original.resize(mesh.positions.size());
-  std::iota(all.original.begin(), all.original.end(), 0u);
-  return all;
-}
+// The content of a buffer view.
+struct Block {
+  const FileBytes* bytes = nullptr;
+  const GlbStream* stream = nullptr;  // null for pictures and for primitives compressed by Draco
+  bool is_attribute = false;
+};
+
+// The indices of a mesh's first buffer view and of its first accessor.
+struct FirstOfMesh {
+  std::size_t view = 0, accessor = 0;
+};
 
 class GlbFile {
  public:
-  GlbFile(const TriangleMesh& mesh, const Texturing& texturing, std::span<const Vec3> normals,
-          const ExportOptions& options)
-      : mesh_(mesh), texturing_(texturing), normals_(normals), options_(options) {
-    vertices_ = texturing.empty() ? unsplit(mesh) : split_at_seams(mesh, texturing);
-    primitives_ = {{.count = mesh.faces.size()}};
-    if (!texturing.empty()) order_by_material();
-    find_place();
+  // `meshes` are the levels of detail, from fine to coarse.
+  GlbFile(std::vector<GlbMesh> meshes, const Texturing& texturing, const ExportOptions& options,
+          const Bounds& box)
+      : meshes_(std::move(meshes)),
+        texturing_(texturing),
+        options_(options),
+        coverages_(screen_coverages(box, options.coarser)),
+        first_(meshes_.size()) {
+    for (std::size_t m = meshes_.size(); m-- > 0;) {
+      add_blocks(m);
+      if (m + 1 == meshes_.size()) add_pictures();
+    }
+    std::size_t accessors = 0;
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+      first_[m].accessor = accessors;
+      accessors += meshes_[m].attribute_count() + meshes_[m].primitives.size();
+    }
   }
 
-  Expected<FileBytes> write() {
-    if (auto ok = make_streams(); !ok) return tl::unexpected(ok.error());
+  FileBytes write() const {
     const FileBytes json = this->json();
     const std::size_t binary = binary_bytes(), total = 12 + 8 + json.size() + 8 + binary;
     FileWriter out(total);
@@ -78,9 +86,9 @@ class GlbFile {
     out.text({reinterpret_cast<const char*>(json.data()), json.size()});
     out.put(static_cast<std::uint32_t>(binary));
     out.text({"BIN\0", 4});
-    for (const FileBytes* bytes : blocks()) {
-      out.text({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-      out.text({"\0\0\0", padded(bytes->size()) - bytes->size()});
+    for (const Block& block : blocks_) {
+      out.text({reinterpret_cast<const char*>(block.bytes->data()), block.bytes->size()});
+      out.text({"\0\0\0", padded(block.bytes->size()) - block.bytes->size()});
     }
     return out.take();
   }
@@ -89,100 +97,29 @@ class GlbFile {
   bool is_draco() const { return options_.compression == Compression::kDraco; }
   bool is_meshopt() const { return options_.compression == Compression::kMeshopt; }
 
-  // Sorts the faces by material, and finds the faces of each material.
-  void order_by_material() {
-    std::vector<std::uint32_t> order(mesh_.faces.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto material_of = [&](std::uint32_t f) { return texturing_.face_materials[f]; };
-    std::ranges::stable_sort(order, {}, material_of);
-    std::vector<Triangle> faces;
-    primitives_.clear();
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const std::uint16_t material = material_of(order[i]);
-      if (i == 0 || primitives_.back().material != material)
-        primitives_.push_back({.material = material, .first = i});
-      ++primitives_.back().count;
-      faces.push_back(vertices_.faces[order[i]]);
-    }
-    vertices_.faces = std::move(faces);
-  }
-
-  // Chooses the point to which stored positions are relative. For exact positions, this is the
-  // origin, or the centre of the bounding box if the box is far from the origin. For positions
-  // rounded without a grid, it is the lower corner of the box. With a grid, it is the grid point at
-  // or below that corner. For meshopt, also sets scale_ if all grid coordinates fit into 16 bits.
-  void find_place() {
-    const Bounds box = bounds_of(mesh_.positions);
-    if (options_.compression == Compression::kNone || (is_meshopt() && !options_.grid)) {
-      if (is_far_from_origin(box)) place_ = box.centre();
+  void add_blocks(std::size_t m) {
+    const GlbMesh& mesh = meshes_[m];
+    first_[m].view = blocks_.size();
+    if (is_draco()) {
+      blocks_.push_back({.bytes = &mesh.draco});
       return;
     }
-    place_ = box.low;
-    if (!options_.grid) return;
-    const Vec3 origin = options_.grid->origin;
-    const double step = options_.grid->step;
-    const auto on_grid = [&](double low, double start) {
-      return start + std::floor((low - start) / step) * step;
-    };
-    place_ = {on_grid(box.low.x, origin.x), on_grid(box.low.y, origin.y),
-              on_grid(box.low.z, origin.z)};
-    const Vec3 side = box.high - place_;
-    const bool is_small = std::ceil(std::max({side.x, side.y, side.z}) / step) <= 65535;
-    if (is_meshopt() && is_small) scale_ = step;
+    for (const GlbStream& stream : mesh.streams)
+      blocks_.push_back({.bytes = &stream.bytes,
+                         .stream = &stream,
+                         .is_attribute = &stream != &mesh.streams.back()});
   }
 
-  Expected<void> make_streams() {
-    if (is_meshopt()) order_for_meshopt(vertices_);
-    const GlbSource source{.mesh = mesh_,
-                           .normals = normals_,
-                           .vertices = vertices_,
-                           .is_textured = !texturing_.empty(),
-                           .place = place_};
-    if (is_meshopt()) {
-      streams_ = packed_streams(source, options_.grid, scale_.has_value());
-      for (GlbStream& stream : streams_)
-        compress_attribute(stream);
-    } else {
-      streams_ = exact_streams(source);
-    }
-    streams_.push_back(index_stream(vertices_));
-    if (is_meshopt()) compress_indices(streams_.back(), vertices_);
-    return is_draco() ? compress_with_draco() : Expected<void>();
-  }
-
-  Expected<void> compress_with_draco() {
-    const std::span attributes(streams_.data(), streams_.size() - 1);
-    auto compressed =
-        compress_primitive(attributes, vertices_.faces, options_.grid ? options_.grid->step : 0);
-    if (!compressed) return tl::unexpected(compressed.error());
-    for (GlbStream& stream : streams_) {
-      stream.count = compressed->points;
-      stream.bytes.clear();
-    }
-    streams_.back().count = compressed->faces * 3;
-    primitives_.front().count = compressed->faces;
-    draco_ = std::move(compressed->bytes);
-    return {};
-  }
-
-  // Returns the blocks of the binary chunk. Each block is the content of one buffer view.
-  std::vector<const FileBytes*> blocks() const {
-    std::vector<const FileBytes*> all;
-    if (is_draco()) {
-      all.push_back(&draco_);
-    } else {
-      for (const GlbStream& stream : streams_)
-        all.push_back(&stream.bytes);
-    }
+  void add_pictures() {
+    first_picture_ = blocks_.size();
     for (const EncodedPicture& picture : texturing_.pictures)
-      all.push_back(&picture.bytes);
-    return all;
+      blocks_.push_back({.bytes = &picture.bytes});
   }
 
   std::size_t binary_bytes() const {
     std::size_t bytes = 0;
-    for (const FileBytes* block : blocks())
-      bytes += padded(block->size());
+    for (const Block& block : blocks_)
+      bytes += padded(block.bytes->size());
     return bytes;
   }
 
@@ -190,21 +127,20 @@ class GlbFile {
     FileWriter out(8192);
     GlbExtensions extensions;
     out.text("{"), put_asset(out, options_, extensions);
-    out.text(R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)");
-    put_name(out, options_.about);
-    if (place_ != Vec3{}) out.text(R"(,"translation":)"), put_vector(out, place_);
-    if (scale_) out.text(R"(,"scale":)"), put_vector(out, {*scale_, *scale_, *scale_});
-    out.text(R"(}],"meshes":[{"primitives":[)");
-    for (std::size_t i = 0; i < primitives_.size(); ++i)
-      out.text(i == 0 ? "" : ","), put_primitive(out, i);
-    out.text("]"), put_name(out, options_.about, level_part()), out.text("}],");
+    out.text(R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[)");
+    for (std::size_t m = 0; m < meshes_.size(); ++m)
+      out.text(m == 0 ? "" : ","), put_node(out, m);
+    out.text(R"(],"meshes":[)");
+    for (std::size_t m = 0; m < meshes_.size(); ++m)
+      out.text(m == 0 ? "" : ","), put_mesh(out, m);
+    out.text("],");
     if (texturing_.empty()) {
       out.text(R"("materials":[{"doubleSided":true,)"
                R"("pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.8}}],)");
     } else {
-      put_materials(out, texturing_, is_draco() ? 1 : streams_.size(), extensions);
+      put_materials(out, texturing_, first_picture_, extensions);
     }
-    add_compression(extensions);
+    add_extensions(extensions);
     put_extensions(out, extensions);
     put_accessors(out);
     put_views(out);
@@ -213,70 +149,114 @@ class GlbFile {
     return out.take();
   }
 
-  void add_compression(GlbExtensions& extensions) const {
+  void add_extensions(GlbExtensions& extensions) const {
     const auto add = [&](std::string_view name) {
       extensions.used.push_back(name), extensions.required.push_back(name);
     };
+    if (meshes_.size() > 1) extensions.used.emplace_back("MSFT_lod");
     if (is_draco()) add("KHR_draco_mesh_compression");
     if (!is_meshopt()) return;
     add("EXT_meshopt_compression");
-    if (scale_ || !normals_.empty()) add("KHR_mesh_quantization");
+    if (std::ranges::any_of(meshes_, &GlbMesh::is_quantised)) add("KHR_mesh_quantization");
   }
 
-  std::string level_part() const {
-    return options_.about.level ? ", level " + std::to_string(*options_.about.level) : "";
+  // Returns the suffix of a name that states the level of mesh `m`.
+  std::string level_part(std::size_t m) const {
+    const auto level = m == 0 ? options_.about.level : options_.coarser[m - 1].level;
+    return level ? ", level " + std::to_string(*level) : "";
   }
 
-  std::size_t attribute_count() const { return streams_.size() - 1; }
+  void put_node(FileWriter& out, std::size_t m) const {
+    const Vec3& place = meshes_[m].place;
+    const std::optional<double>& scale = meshes_[m].scale;
+    out.text(R"({"mesh":)"), out.number(m);
+    put_name(out, options_.about, m == 0 ? "" : level_part(m));
+    if (place != Vec3{}) out.text(R"(,"translation":)"), put_vector(out, place);
+    if (scale) out.text(R"(,"scale":)"), put_vector(out, {*scale, *scale, *scale});
+    if (m == 0 && meshes_.size() > 1) put_levels(out);
+    out.text("}");
+  }
 
-  void put_primitive(FileWriter& out, std::size_t i) const {
-    const auto put_attributes = [&] {
+  // Writes the members of the finest level's node that list the coarser levels and the screen
+  // coverages of all levels.
+  void put_levels(FileWriter& out) const {
+    out.text(R"(,"extensions":{"MSFT_lod":{"ids":[)");
+    for (std::size_t m = 1; m < meshes_.size(); ++m)
+      out.text(m == 1 ? "" : ","), out.number(m);
+    out.text(R"(]}},"extras":{"MSFT_screencoverage":[)");
+    for (std::size_t m = 0; m < coverages_.size(); ++m)
+      out.text(m == 0 ? "" : ","), out.number(static_cast<float>(coverages_[m]));
+    out.text("]}");
+  }
+
+  void put_mesh(FileWriter& out, std::size_t m) const {
+    out.text(R"({"primitives":[)");
+    for (std::size_t i = 0; i < meshes_[m].primitives.size(); ++i)
+      out.text(i == 0 ? "" : ","), put_primitive(out, m, i);
+    out.text("]"), put_name(out, options_.about, level_part(m)), out.text("}");
+  }
+
+  void put_primitive(FileWriter& out, std::size_t m, std::size_t i) const {
+    const GlbMesh& mesh = meshes_[m];
+    const auto put_attributes = [&](std::size_t first) {
       out.text(R"("attributes":{)");
-      for (std::size_t a = 0; a < attribute_count(); ++a) {
-        out.text(a == 0 ? "" : ","), out.quoted(streams_[a].semantic);
-        out.text(":"), out.number(a);
+      for (std::size_t a = 0; a < mesh.attribute_count(); ++a) {
+        out.text(a == 0 ? "" : ","), out.quoted(mesh.streams[a].semantic);
+        out.text(":"), out.number(first + a);
       }
       out.text("}");
     };
-    out.text("{"), put_attributes();
-    out.text(R"(,"indices":)"), out.number(attribute_count() + i);
-    out.text(R"(,"material":)"), out.number(primitives_[i].material);
+    out.text("{"), put_attributes(first_[m].accessor);
+    out.text(R"(,"indices":)"), out.number(first_[m].accessor + mesh.attribute_count() + i);
+    out.text(R"(,"material":)"), out.number(mesh.primitives[i].material);
     if (is_draco()) {
-      out.text(R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,)");
-      put_attributes(), out.text("}}");
+      out.text(R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":)");
+      out.number(first_[m].view), out.text(","), put_attributes(0), out.text("}}");
     }
     out.text("}");
   }
 
-  // Writes an accessor without its closing brace.
-  void put_accessor(FileWriter& out, std::size_t i, std::size_t offset, std::size_t count) const {
-    const GlbStream& stream = streams_[i];
+  // The part of a stream that an accessor reads.
+  struct Elements {
+    std::size_t offset = 0, count = 0;  // offset in bytes, number of elements
+  };
+
+  // Writes an accessor of stream `i` of mesh `m`, without its closing brace.
+  void put_accessor(FileWriter& out, std::size_t m, std::size_t i, const Elements& part) const {
+    const GlbStream& stream = meshes_[m].streams[i];
     out.text("{");
-    if (!is_draco()) out.text(R"("bufferView":)"), out.number(i), out.text(",");
-    if (offset > 0) out.text(R"("byteOffset":)"), out.number(offset), out.text(",");
+    if (!is_draco()) out.text(R"("bufferView":)"), out.number(first_[m].view + i), out.text(",");
+    if (part.offset > 0) out.text(R"("byteOffset":)"), out.number(part.offset), out.text(",");
     out.text(R"("componentType":)"), out.number(static_cast<unsigned>(stream.component));
     if (stream.is_normalised) out.text(R"(,"normalized":true)");
     out.text(R"(,"type":")"), out.text(element_type_of(stream));
-    out.text(R"(","count":)"), out.number(count);
+    out.text(R"(","count":)"), out.number(part.count);
   }
 
   void put_accessors(FileWriter& out) const {
     out.text(R"("accessors":[)");
-    for (std::size_t a = 0; a < attribute_count(); ++a) {
-      put_accessor(out, a, 0, streams_[a].count);
-      if (const auto& bounds = streams_[a].bounds) {
+    for (std::size_t m = 0; m < meshes_.size(); ++m)
+      out.text(m == 0 ? "" : ","), put_accessors_of(out, m);
+    out.text("],");
+  }
+
+  void put_accessors_of(FileWriter& out, std::size_t m) const {
+    const GlbMesh& mesh = meshes_[m];
+    for (std::size_t a = 0; a < mesh.attribute_count(); ++a) {
+      put_accessor(out, m, a, {.count = mesh.streams[a].count});
+      if (const auto& bounds = mesh.streams[a].bounds) {
         out.text(R"(,"min":)"), put_floats(out, bounds->low);
         out.text(R"(,"max":)"), put_floats(out, bounds->high);
       }
       out.text("},");
     }
-    for (std::size_t i = 0; i < primitives_.size(); ++i) {
-      const auto& [material, first, count] = primitives_[i];
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+      const auto& [material, first, count] = mesh.primitives[i];
       out.text(i == 0 ? "" : ",");
-      put_accessor(out, attribute_count(), first * 3 * streams_.back().stride, count * 3);
+      put_accessor(out, m, mesh.attribute_count(),
+                   {.offset = first * 3 * mesh.streams.back().stride, .count = count * 3});
       out.text("}");
     }
-    out.text("],");
   }
 
   // Writes the members of a buffer view whose block is compressed. `at` is the byte offset of the
@@ -297,21 +277,19 @@ class GlbFile {
 
   void put_views(FileWriter& out) const {
     out.text(R"("bufferViews":[)");
-    const auto all = blocks();
     std::size_t at = 0, decompressed = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool is_stream = !is_draco() && i < streams_.size();
-      out.text(i == 0 ? "{" : ",{");
-      if (is_stream && is_meshopt()) {
-        put_compressed_view(out, streams_[i], at, decompressed);
-        decompressed += padded(streams_[i].count * streams_[i].stride);
+    for (const Block& block : blocks_) {
+      out.text(&block == blocks_.data() ? "{" : ",{");
+      if (block.stream != nullptr && is_meshopt()) {
+        put_compressed_view(out, *block.stream, at, decompressed);
+        decompressed += padded(block.stream->count * block.stream->stride);
       } else {
         out.text(R"("buffer":0,"byteOffset":)"), out.number(at);
-        out.text(R"(,"byteLength":)"), out.number(all[i]->size());
+        out.text(R"(,"byteLength":)"), out.number(block.bytes->size());
       }
-      if (is_stream) put_layout(out, i);
+      if (block.stream != nullptr) put_layout(out, block);
       out.text("}");
-      at += padded(all[i]->size());
+      at += padded(block.bytes->size());
     }
     out.text(R"(],"buffers":[{"byteLength":)"), out.number(at), out.text("}");
     if (decompressed > 0) {
@@ -321,30 +299,57 @@ class GlbFile {
     out.text("]}");
   }
 
-  void put_layout(FileWriter& out, std::size_t i) const {
+  void put_layout(FileWriter& out, const Block& block) const {
     constexpr std::string_view kVertices = "34962", kIndices = "34963";
-    const bool is_attribute = i < attribute_count();
-    if (is_attribute) out.text(R"(,"byteStride":)"), out.number(streams_[i].stride);
-    out.text(R"(,"target":)"), out.text(is_attribute ? kVertices : kIndices);
+    if (block.is_attribute) out.text(R"(,"byteStride":)"), out.number(block.stream->stride);
+    out.text(R"(,"target":)"), out.text(block.is_attribute ? kVertices : kIndices);
   }
 
-  const TriangleMesh& mesh_;
-  const Texturing& texturing_;
-  std::span<const Vec3> normals_;  // one per vertex of the mesh, or empty
+  const std::vector<GlbMesh> meshes_;  // levels of detail, from fine to coarse
+  const Texturing& texturing_;         // materials and pictures of all meshes
   const ExportOptions& options_;
-  Vec3 place_;                   // the point of the scene to which stored positions are relative
-  std::optional<double> scale_;  // scale of the node, if positions are stored as grid coordinates
-  SeamVertices vertices_;  // the vertices and faces of the file; the faces are sorted by material
-  std::vector<Primitive> primitives_;
-  std::vector<GlbStream> streams_;  // the attributes, then the indices
-  FileBytes draco_;                 // the compressed primitive
+  const std::vector<double> coverages_;  // the values of MSFT_screencoverage
+  std::vector<Block> blocks_;            // in the order of the file
+  std::vector<FirstOfMesh> first_;       // one entry per mesh
+  std::size_t first_picture_ = 0;        // index of the first picture's buffer view
 };
+
+// Returns a coarser level in the form in which the file stores it. Its faces have the material of
+// the finest level.
+Expected<GlbMesh> coarser_mesh(const CoarserLevel& level, const Texturing& finest, bool is_smooth,
+                               Compression compression) {
+  Texturing texturing;
+  if (!finest.empty()) {
+    texturing.materials = finest.materials;
+    texturing.face_materials.assign(level.mesh.faces.size(), 0);
+    texturing.coordinates[0] = level.coordinates;
+  }
+  const std::vector<Vec3> normals = is_smooth ? unit_normals(level.mesh) : std::vector<Vec3>();
+  return glb_mesh({.mesh = level.mesh,
+                   .texturing = texturing,
+                   .normals = normals,
+                   .compression = compression,
+                   .grid = level.grid});
+}
 
 }  // namespace
 
 Expected<FileBytes> write_glb(const TriangleMesh& mesh, const Texturing& texturing,
                               std::span<const Vec3> normals, const ExportOptions& options) {
-  return GlbFile(mesh, texturing, normals, options).write();
+  std::vector<GlbMesh> meshes;
+  auto finest = glb_mesh({.mesh = mesh,
+                          .texturing = texturing,
+                          .normals = normals,
+                          .compression = options.compression,
+                          .grid = options.grid});
+  if (!finest) return tl::unexpected(finest.error());
+  meshes.push_back(std::move(*finest));
+  for (const CoarserLevel& level : options.coarser) {
+    auto coarser = coarser_mesh(level, texturing, !normals.empty(), options.compression);
+    if (!coarser) return tl::unexpected(coarser.error());
+    meshes.push_back(std::move(*coarser));
+  }
+  return GlbFile(std::move(meshes), texturing, options, bounds_of(mesh.positions)).write();
 }
 
 }  // namespace vitrine::inline codec

@@ -19,6 +19,10 @@
 namespace vitrine::inline codec {
 namespace {
 
+// GLB and STL store sizes as 32-bit byte counts. In STL, a face takes 50 bytes. In GLB, a face
+// takes 12 bytes and a vertex up to 32. A textured face has up to three vertices of its own.
+constexpr std::size_t kMostFaces = 80'000'000, kMostTexturedFaces = 30'000'000;
+
 bool fits_float(const Vec3& p) {
   constexpr double kMost = std::numeric_limits<float>::max();
   return std::abs(p.x) <= kMost && std::abs(p.y) <= kMost && std::abs(p.z) <= kMost;
@@ -28,9 +32,7 @@ Expected<void> check(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   if (mesh.faces.empty())
     return fail(ErrorCode::kBadInput, "there are no faces to write; ask for a finer level");
-  // GLB and STL store sizes as 32-bit byte counts. In STL, a face takes 50 bytes. In GLB, a face
-  // takes 12 bytes and a vertex up to 32.
-  if (mesh.faces.size() > 80'000'000 || vertices > 100'000'000) {
+  if (mesh.faces.size() > kMostFaces || vertices > 100'000'000) {
     return fail(ErrorCode::kLimit, "the mesh is too large to export; ask for fewer triangles");
   }
   if (!mesh.attributes.fit(vertices)) {
@@ -83,8 +85,7 @@ Expected<void> check(const TriangleMesh& mesh, const Texturing& texturing, MeshF
   }
   if (bytes > 1'000'000'000)
     return fail(ErrorCode::kLimit, "the pictures are too large to export; ask for smaller ones");
-  // GLB takes 12 bytes for a face. A face has up to three vertices of its own, of 32 bytes each.
-  if (mesh.faces.size() > 30'000'000) {
+  if (mesh.faces.size() > kMostTexturedFaces) {
     return fail(ErrorCode::kLimit,
                 "the textured mesh is too large to export; ask for fewer triangles");
   }
@@ -103,6 +104,33 @@ Expected<void> check(MeshFormat format, const ExportOptions& options) {
   if (row.has_fixed_unit && is_other_unit) return demand("the unit " + std::string(row.unit));
   if (row.has_fixed_up && options.up.value_or(row.up) != row.up)
     return demand(std::string(name_of(row.up)) + " up");
+  return {};
+}
+
+// Checks the coarser levels of a file. `texturing` is the texturing of the finest mesh.
+Expected<void> check(const TriangleMesh& finest, const Texturing& texturing, MeshFormat format,
+                     std::span<const CoarserLevel> coarser) {
+  if (coarser.empty()) return {};
+  if (format != MeshFormat::kGlb)
+    return fail(ErrorCode::kBadInput, "only GLB files hold several levels of detail; choose GLB");
+  if (texturing.materials.size() > 1) {
+    return fail(ErrorCode::kUnsupported,
+                "a GLB with several levels of detail has one material; write a single level");
+  }
+  std::size_t faces = finest.faces.size();
+  for (const CoarserLevel& level : coarser) {
+    if (auto ok = check(level.mesh); !ok) return ok;
+    faces += level.mesh.faces.size();
+    if (level.coordinates.size() != (texturing.empty() ? 0 : level.mesh.faces.size())) {
+      return fail(ErrorCode::kBadInput,
+                  "the texture does not fit level " + std::to_string(level.level) +
+                      "; give texture coordinates for each face if the finest mesh has a texture");
+    }
+  }
+  if (faces > (texturing.empty() ? kMostFaces : kMostTexturedFaces)) {
+    return fail(ErrorCode::kLimit,
+                "the levels of detail are too large together; ask for fewer triangles");
+  }
   return {};
 }
 
@@ -161,6 +189,18 @@ Expected<FileBytes> placed_file(const TriangleMesh& mesh, const Texturing& textu
               "unknown mesh format; choose " + std::string(kExportExtensions));
 }
 
+// Returns the coarser levels in the unit of the file.
+std::vector<CoarserLevel> placed_levels(std::span<const CoarserLevel> levels, double factor) {
+  std::vector<CoarserLevel> placed(levels.begin(), levels.end());
+  for (CoarserLevel& level : placed) {
+    for (Vec3& p : level.mesh.positions)
+      p = p * factor;
+    level.error *= factor;
+    level.grid = {level.grid.origin * factor, level.grid.step * factor};
+  }
+  return placed;
+}
+
 // Whether a format holds the normals of vertices.
 bool has_normals(MeshFormat format) {
   return format != MeshFormat::kStl && format != MeshFormat::kDrc && format != MeshFormat::k3mf;
@@ -172,9 +212,11 @@ Expected<FileBytes> mesh_file(const TriangleMesh& mesh, const Texturing& texturi
   const bool is_smooth = options.normals == Normals::kSmooth && has_normals(format);
   std::vector<Vec3> normals = is_smooth ? unit_normals(mesh) : std::vector<Vec3>();
   double factor = 1;
-  const ExportOptions file = options_of_file(format, options, factor);
+  ExportOptions file = options_of_file(format, options, factor);
   const bool has_z_up = file.up == UpAxis::kZ;
   if (factor == 1 && !has_z_up) return placed_file(mesh, texturing, normals, format, library, file);
+  const std::vector<CoarserLevel> coarser = placed_levels(options.coarser, factor);
+  file.coarser = coarser;
   TriangleMesh placed = mesh;
   place(placed, normals, factor, has_z_up);
   return placed_file(placed, texturing, normals, format, library, file);
@@ -197,6 +239,7 @@ Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFor
                                                const ExportOptions& options) {
   if (auto ok = check(mesh); !ok) return tl::unexpected(ok.error());
   if (auto ok = check(format, options); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check(mesh, {}, format, options.coarser); !ok) return tl::unexpected(ok.error());
   return mesh_file(mesh, {}, format, {}, options);
 }
 
@@ -221,6 +264,8 @@ Expected<std::vector<MeshFile>> write_textured_mesh(const TriangleMesh& mesh, Te
                 "a compressed GLB has one material; leave out the compression");
   }
   if (auto ok = check(format, options); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check(mesh, texturing, format, options.coarser); !ok)
+    return tl::unexpected(ok.error());
   const std::string name = plain_name(stem), library = name + ".mtl";
   for (EncodedPicture& picture : texturing.pictures)
     picture.name = name + '_' + plain_name(picture.name);

@@ -28,17 +28,17 @@ enum class MeshFormat {
   kDrc,   // Draco edgebreaker; exact colours; vertices and faces are reordered
   kVrml,  // VRML 97 with one IndexedFaceSet; a texture or colours
   k3mf,   // a zip for printers, with z up; colours as bytes
-  kUsdz,  // a stored zip of a USD layer as text; a texture, or colours in linear light
+  kUsdz,  // an uncompressed zip with a USD layer as text; a texture, or linear colours
 };
 
 struct ExportFormat {
   MeshFormat format;
   std::string_view name, extension, media_type;
-  // The unit and the up axis that are usual for the format. Without a unit, files have the unit of
-  // the model.
+  // The unit and the up axis that are usual for the format. If `unit` is empty, files have the unit
+  // of the model.
   std::string_view unit = {};
   UpAxis up = UpAxis::kY;
-  // Whether the format's standard prescribes this unit, and this axis.
+  // Whether the format's standard prescribes the unit `unit`, and the axis `up`.
   bool has_fixed_unit = false, has_fixed_up = false;
 };
 
@@ -131,8 +131,8 @@ constexpr bool has_companions(MeshFormat format) {
 // Returns the bytes of the file. All files but DRC contain the statements of statements.h; STL
 // files have room for 80 bytes of them. If the unit is unknown, the files state this, and positions
 // are not scaled. If the mesh is far from the origin, files keep double precision, except STL and
-// DRC. Smooth normals are those of unit_normals() (vertex_normals.h). A compressed GLB has at most
-// one material.
+// DRC. Smooth normals are computed by unit_normals() (vertex_normals.h). A GLB that is compressed
+// or has coarser levels has at most one material.
 //
 // Fails (kBadInput) if the mesh has no faces, a position does not fit a float, or the options
 // contradict the fixed unit and axis of a format. Fails (kLimit) if the file would exceed the
@@ -145,8 +145,8 @@ struct MeshFile {
   std::vector<std::uint8_t> bytes;
 };
 
-// Returns `name` with `_` instead of each byte that MeshFile::name does not allow. These bytes have
-// special meanings in some mesh files, URLs or archives.
+// Returns `name` with `_` instead of each byte that MeshFile::name does not allow. The replaced
+// bytes have special meanings in some mesh files, URLs or archives.
 std::string plain_name(std::string_view name);
 
 // Returns the files of a mesh with a texture instead of vertex colours. The first file is the mesh,
@@ -165,7 +165,7 @@ Expected<std::vector<MeshFile>> write_textured_mesh(const TriangleMesh& mesh, Te
                                                     const ExportOptions& options = {});
 
 // Returns a note for the user if the mesh is far from the origin and the format is STL or DRC. The
-// note has the form "CAUSE; NEXT STEP". It says how far single precision moves the vertices.
+// note has the form "CAUSE; NEXT STEP". The note says how far single precision moves the vertices.
 // Returns an empty string for other meshes and formats.
 std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes binary PLY [PLY]. Stores a texture as MeshLab does: a comment TextureFile names the
-// picture, and each face has a list `texcoord` of coordinates, whose v axis points upwards.
+// Writes binary PLY [PLY]. Stores a texture as MeshLab does. A comment TextureFile names the
+// picture. Each face has a list `texcoord` of texture coordinates, whose v axis points upwards.
 #include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/statements.h"

@@ -13,9 +13,9 @@ namespace {
 
 using Header = std::array<char, 80>;
 
-// Returns the header: unit, axis, title and licence, as far as 80 bytes allow. It must not start
-// with "solid", which marks text STL. Texts contain no equals sign, because some programs take
-// "COLOR=" for the start of colours.
+// Returns the header: unit, axis, title and licence, as far as 80 bytes allow. The header must not
+// start with "solid", which marks text STL. Replaces equals signs, because some programs read the
+// bytes after "COLOR=" as a colour.
 Header header_of(std::span<const Statement> statements) {
   std::string text = "Vitrine";
   for (const auto& [name, value] : statements) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes USDZ [USDZ]: a package with a USD layer as text [USDA], which has one mesh, and the
-// pictures of its texture. Colours are in linear light. If the mesh is far from the origin, its
-// points are relative to a transform, which has double precision.
+// Writes USDZ [USDZ]: a package that contains a USD layer as text [USDA] and the pictures of its
+// texture. The layer has one mesh. Colours are in linear light. If the mesh is far from the origin,
+// its points are relative to a transform, which has double precision.
 #include <string>
 
 #include "codec/core/srgb.h"
@@ -26,8 +26,9 @@ constexpr std::string_view kMeshStart = R"(
         uniform token subdivisionScheme = "none"
 )";
 
-// Writes the metadata of the layer. Readers take files without a unit for centimetres, so a file
-// whose unit is unknown has metres, as GLB files do; its statements say that the unit is unknown.
+// Writes the metadata of the layer. If a file states no unit, readers assume centimetres. If the
+// unit is unknown, the layer therefore states metres, as GLB files do, and its statements say that
+// the unit is unknown.
 void put_layer_metadata(const ExportOptions& options, FileWriter& out) {
   out.text("#usda 1.0\n(\n    defaultPrim = \"model\"\n");
   if (const std::string title = one_line(options.about.title); !title.empty())
@@ -43,8 +44,8 @@ void put_layer_metadata(const ExportOptions& options, FileWriter& out) {
   out.text("    }\n)\n");
 }
 
-// Writes an attribute of the mesh: an array of `count` values, each written by put(i), and how the
-// values are spread over the surface.
+// Writes an attribute of the mesh as an array of `count` values, each written by put(i).
+// `interpolation` states how USD assigns the values to the surface.
 template <class Put>
 void put_array(FileWriter& out, std::string_view declaration, std::size_t count, const Put& put,
                std::string_view interpolation = {}) {
@@ -87,7 +88,8 @@ void put_shape(const TriangleMesh& mesh, std::span<const Vec3> normals, const Ve
       "vertex");
 }
 
-// USD counts texture coordinates from the lower left corner of the picture.
+// Writes the texture coordinates. In USD, (0, 0) is the lower left corner of the picture, so the
+// second coordinate is flipped.
 void put_st(const SeamVertices& split, FileWriter& out) {
   const auto& coordinates = split.coordinates[0];
   put_array(

@@ -24,7 +24,7 @@ using FileBytes = std::vector<std::uint8_t>;
 // vertex of the mesh.
 FileBytes write_ply(const TriangleMesh& mesh, const Texturing& texturing,
                     std::span<const Vec3> normals, std::span<const Statement> statements);
-// `library` is the name of the file that write_obj_library() returns.
+// `library` is the file name of the material library, which write_obj_library() writes.
 FileBytes write_obj(const TriangleMesh& mesh, const Texturing& texturing,
                     std::span<const Vec3> normals, std::string_view library,
                     std::span<const Statement> statements);
@@ -36,7 +36,7 @@ Expected<FileBytes> write_glb(const TriangleMesh& mesh, const Texturing& texturi
                               std::span<const Vec3> normals, const ExportOptions& options);
 FileBytes write_vrml(const TriangleMesh& mesh, const Texturing& texturing,
                      std::span<const Vec3> normals, std::span<const Statement> statements);
-// As for GLB. 3MF has neither textures nor normals.
+// `options` must meet the requirements of write_glb(). 3MF has neither textures nor normals.
 Expected<FileBytes> write_3mf(const TriangleMesh& mesh, const ExportOptions& options);
 Expected<FileBytes> write_usdz(const TriangleMesh& mesh, const Texturing& texturing,
                                std::span<const Vec3> normals, const ExportOptions& options);

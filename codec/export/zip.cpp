@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// libarchive writes zips, too. But it cannot align files, and it writes their checksums and sizes
-// after their bytes, where readers of USDZ do not look and strict readers of 3MF refuse them.
+// Writes zip archives without libarchive, which cannot align files. libarchive also writes a file's
+// checksum and sizes after the file's bytes. Readers of USDZ do not find them there, and strict
+// readers of 3MF refuse such archives.
 #include "codec/export/zip.h"
 
 #include <zlib.h>
@@ -19,7 +20,7 @@ using Bytes = std::vector<std::uint8_t>;
 enum class Method : std::uint16_t { kStored = 0, kDeflated = 8 };
 
 constexpr std::size_t kLocalHead = 30, kDirectoryHead = 46, kEnd = 22, kExtraHead = 4;
-constexpr std::uint16_t kVersion = 20;      // 2.0 of zip, for deflate
+constexpr std::uint16_t kVersion = 20;      // zip version 2.0, which introduced deflate
 constexpr std::uint16_t kFirstDay = 0x21;   // 1 January 1980
 constexpr std::uint16_t kPadding = 0x1986;  // identifier of OpenUSD's extra field
 
@@ -41,8 +42,8 @@ Bytes deflated(const Bytes& bytes) {
   return out;
 }
 
-// Returns the size of the extra field that moves the bytes of a file to an aligned place, if the
-// field begins at `at`.
+// Returns the size of the extra field that begins at byte `at` of the archive. The field is
+// padding, after which the bytes of the file begin at a multiple of `alignment`.
 std::size_t padding_at(std::size_t at, std::size_t alignment) {
   const std::size_t padding = (alignment - at % alignment) % alignment;
   return padding > 0 && padding < kExtraHead ? padding + alignment : padding;
@@ -53,7 +54,7 @@ class ZipWriter {
   ZipWriter(Method method, std::size_t alignment, std::size_t expected_size)
       : method_(method), alignment_(alignment), out_(expected_size), directory_(1024) {}
 
-  // `body` is the file's bytes as the method stores them.
+  // `body` holds the file's bytes in the form in which the compression method stores them.
   void add(const MeshFile& file, const Bytes& body) {
     const std::size_t at = out_.size();
     const std::size_t padding = padding_at(at + kLocalHead + file.name.size(), alignment_);
@@ -73,7 +74,7 @@ class ZipWriter {
     const Bytes directory = directory_.take();
     out_.text({reinterpret_cast<const char*>(directory.data()), directory.size()});
     out_.text("PK\5\6");
-    out_.put(std::uint32_t{0});  // this disk and the directory's disk
+    out_.put(std::uint32_t{0});  // numbers of this disk and of the directory's disk
     out_.put(count_), out_.put(count_);
     out_.put(static_cast<std::uint32_t>(directory.size()));
     out_.put(at);
@@ -108,10 +109,10 @@ class ZipWriter {
   void put_directory_entry(const MeshFile& file, const Bytes& body, std::uint32_t checksum,
                            std::size_t at) {
     directory_.text("PK\1\2");
-    directory_.put(kVersion);  // of the writer
+    directory_.put(kVersion);  // version of the writer
     put_shared_fields(directory_, file, body, checksum, 0);
     directory_.put(std::uint16_t{0});  // size of the comment
-    directory_.put(std::uint16_t{0});  // disk
+    directory_.put(std::uint16_t{0});  // number of the disk
     directory_.put(std::uint16_t{0});  // internal attributes
     directory_.put(std::uint32_t{0});  // external attributes
     directory_.put(static_cast<std::uint32_t>(at));
@@ -124,7 +125,7 @@ class ZipWriter {
   std::uint16_t count_ = 0;
 };
 
-// Returns an upper bound of the size of an archive without the bytes of its files.
+// Returns an upper bound of the archive's size, not counting the bytes of the files.
 std::size_t most_overhead(std::span<const MeshFile> files, std::size_t alignment) {
   std::size_t bytes = kEnd;
   for (const MeshFile& file : files)
@@ -132,7 +133,8 @@ std::size_t most_overhead(std::span<const MeshFile> files, std::size_t alignment
   return bytes;
 }
 
-// Checks that all sizes and offsets have 32 bits, even if deflate makes the files a little larger.
+// Checks that all sizes and offsets fit in 32 bits, even if deflate makes the files a little
+// larger.
 Expected<void> check_size(std::span<const MeshFile> files, std::size_t overhead) {
   std::size_t most = overhead;
   for (const MeshFile& file : files)

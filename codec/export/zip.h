@@ -11,13 +11,14 @@
 
 namespace vitrine::inline codec {
 
-// Returns a zip archive of the files, in their order. Their names are ASCII and may have folders.
-// Compresses fast, because pictures are compressed already. Equal files give equal bytes: no entry
-// has a time. Fails (kLimit) if the archive or the files would exceed the 32-bit sizes of a zip.
+// Returns a zip archive of the files, in their order. The names of the files must be ASCII and may
+// contain folders. Uses the fastest level of compression, because pictures are compressed already.
+// Equal files give equal bytes: no entry has a time. Fails (kLimit) if the archive or the files
+// would exceed the 32-bit sizes of a zip.
 Expected<std::vector<std::uint8_t>> zip(std::span<const MeshFile> files);
 
-// Returns a zip archive without compression, in which the bytes of each file begin at a multiple of
-// 64 bytes from the start of the archive, as USDZ [USDZ] demands. Otherwise like zip().
+// Like zip(), but without compression. The bytes of each file begin at a multiple of 64 bytes from
+// the start of the archive, as USDZ [USDZ] demands.
 Expected<std::vector<std::uint8_t>> stored_zip(std::span<const MeshFile> files);
 
 }  // namespace vitrine::inline codec

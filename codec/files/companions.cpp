@@ -4,39 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <compare>
+#include <optional>
+#include <vector>
+
+#include "codec/core/printable.h"
+#include "codec/files/composed.h"
+#include "codec/files/picture_formats.h"
 
 namespace vitrine::inline codec {
 
 namespace {
 
-// Returns the length in bytes of the UTF-8 character at the start of `text`, or 0 if `text` does
-// not start with one. Accepts overlong encodings.
-std::size_t utf8_size(std::string_view text) {
-  const auto first = static_cast<std::uint8_t>(text[0]);
-  const std::size_t size = first < 0x80   ? 1
-                           : first < 0xC2 ? 0
-                           : first < 0xE0 ? 2
-                           : first < 0xF0 ? 3
-                           : first < 0xF5 ? 4
-                                          : 0;
-  if (size > text.size()) return 0;
-  for (std::size_t i = 1; i < size; ++i) {
-    if ((static_cast<std::uint8_t>(text[i]) & 0xC0) != 0x80) return 0;
-  }
-  return size;
-}
-
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t size = utf8_size(text);
-    if (size == 0) return false;
-    text.remove_prefix(size);
-  }
-  return true;
-}
-
-// The Unicode characters of the windows-1252 bytes 0x80 to 0x9F. Each other byte stands for the
-// character with the same number. Bytes without a character become U+FFFD.
+// The Unicode characters of the windows-1252 bytes 0x80 to 0x9F. All other bytes are the characters
+// with the same numbers. Bytes without a character become U+FFFD.
 constexpr std::array<std::uint16_t, 32> kWindows1252{
     0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
     0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD, 0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
@@ -54,6 +35,109 @@ void append_utf8(std::uint32_t c, std::string& out) {
   }
 }
 
+std::string folded(std::string_view text) {
+  std::string out = composed(as_utf8(text));
+  for (char& c : out)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+// Returns the parts of a path. Drops empty parts and ".". A ".." after a folder removes this
+// folder.
+std::vector<std::string_view> parts_of(std::string_view path) {
+  std::vector<std::string_view> parts;
+  while (!path.empty()) {
+    const std::size_t end = std::min(path.find_first_of("/\\"), path.size());
+    const std::string_view part = path.substr(0, end);
+    path.remove_prefix(std::min(end + 1, path.size()));
+    if (part == ".." && !parts.empty() && parts.back() != "..") {
+      parts.pop_back();
+    } else if (!part.empty() && part != ".") {
+      parts.push_back(part);
+    }
+  }
+  return parts;
+}
+
+std::string reversed(const std::vector<std::string_view>& parts) {
+  std::string out;
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part)
+    (out += out.empty() ? "" : "/") += *part;
+  return out;
+}
+
+// Largest number of files with the same name among which find_companion() chooses. It bounds the
+// time that a hostile file can cost.
+constexpr std::size_t kMostNamesakes = 256;
+
+// How well a companion fits a stated path. Larger values are better; earlier members matter more.
+struct Fit {
+  std::size_t equal_parts;  // number of equal parts at the ends of both paths
+  int nearness;             // 2 in the folder of the mesh file, 1 below it, 0 elsewhere
+  std::ptrdiff_t folders;   // negative number of folders in the path
+
+  auto operator<=>(const Fit&) const = default;
+};
+
+Fit fit_of(std::string_view key, std::string_view stated_key) {
+  Fit fit{.equal_parts = 0, .nearness = 1, .folders = -std::ranges::count(key, '/')};
+  if (key.ends_with("/..")) fit.nearness = 0;
+  if (key.find('/') == key.npos) fit.nearness = 2;
+  while (!key.empty()) {
+    const std::string_view part = key.substr(0, key.find('/'));
+    if (part == ".." || part != stated_key.substr(0, stated_key.find('/'))) break;
+    ++fit.equal_parts;
+    key.remove_prefix(std::min(part.size() + 1, key.size()));
+    stated_key.remove_prefix(std::min(part.size() + 1, stated_key.size()));
+  }
+  return fit;
+}
+
+using Found = std::vector<const Companions::value_type*>;
+
+// Returns the companions that have the same file name as `path`.
+Found namesakes(const Companions& companions, std::string_view path) {
+  Found found;
+  const std::string name = name_key(path), start = name + '/';
+  if (const auto here = companions.find(name); here != companions.end()) found.push_back(&*here);
+  for (auto it = companions.lower_bound(start);
+       it != companions.end() && it->first.starts_with(start) && found.size() <= kMostNamesakes;
+       ++it)
+    found.push_back(&*it);
+  return found;
+}
+
+Unexpected ambiguous(const Found& best) {
+  return fail(ErrorCode::kBadInput,
+              "has the name of " + std::to_string(best.size()) +
+                  " files beside the mesh file, such as " +
+                  in_quotes(companion_path(best[0]->first)) + " and " +
+                  in_quotes(companion_path(best[1]->first)) +
+                  "; state the path of one of them, or give the files different names");
+}
+
+// Finds a companion by rules 3 to 5 of find_companion().
+Expected<const Companions::value_type*> find_by_name(const Companions& companions,
+                                                     std::string_view path) {
+  const auto candidates = namesakes(companions, path);
+  if (candidates.empty())
+    return fail(ErrorCode::kBadInput,
+                "is not beside the mesh file; copy it there, or pack both in one zip");
+  const std::string stated_key = companion_key(path);
+  if (candidates.size() > kMostNamesakes) return ambiguous(candidates);
+  Found best;
+  std::optional<Fit> most;
+  for (const auto* candidate : candidates) {
+    const Fit fit = fit_of(candidate->first, stated_key);
+    if (fit > most) most = fit, best.clear();
+    if (fit == most) best.push_back(candidate);
+  }
+  const bool share_bytes = std::ranges::all_of(
+      best, [&](const auto* other) { return other->second.data() == best[0]->second.data(); });
+  if (!share_bytes) return ambiguous(best);
+  return best[0];
+}
+
 }  // namespace
 
 std::string as_utf8(std::string_view text) {
@@ -66,12 +150,31 @@ std::string as_utf8(std::string_view text) {
   return out;
 }
 
-std::string companion_key(std::string_view path) {
+std::string name_key(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");
-  std::string key = as_utf8(slash == path.npos ? path : path.substr(slash + 1));
-  for (char& c : key)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return key;
+  return folded(slash == path.npos ? path : path.substr(slash + 1));
+}
+
+std::string companion_key(std::string_view path) {
+  return reversed(parts_of(folded(path)));
+}
+
+std::string companion_path(std::string_view key) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = key.find('/');
+    parts.push_back(key.substr(0, end));
+    if (end == key.npos) return reversed(parts);
+    key.remove_prefix(end + 1);
+  }
+}
+
+void share_equal_contents(Companions& companions) {
+  std::span<const std::uint8_t> before;
+  for (auto& [key, bytes] : companions) {
+    if (std::ranges::equal(bytes, before)) bytes = before;
+    before = bytes;
+  }
 }
 
 std::string percent_decoded(std::string_view uri) {
@@ -89,20 +192,27 @@ std::string percent_decoded(std::string_view uri) {
   return out;
 }
 
-CompanionKind companion_kind(std::string_view key) {
-  constexpr std::array<std::string_view, 13> kPictures{".png",  ".jpg", ".jpeg", ".webp", ".tif",
-                                                       ".tiff", ".tga", ".bmp",  ".gif",  ".dds",
-                                                       ".psd",  ".exr", ".ktx2"};
-  const auto ends = [&](std::string_view extension) { return key.ends_with(extension); };
-  if (ends(".mtl")) return CompanionKind::kLibrary;
-  if (ends(".bin")) return CompanionKind::kBuffer;
-  return std::ranges::any_of(kPictures, ends) ? CompanionKind::kPicture : CompanionKind::kOther;
+CompanionKind companion_kind(std::string_view name) {
+  const auto has_extension_of = [&](const PictureFormat& format) {
+    return std::ranges::any_of(format.extensions, [&](std::string_view extension) {
+      return !extension.empty() && name.ends_with(extension);
+    });
+  };
+  if (name.ends_with(".mtl")) return CompanionKind::kLibrary;
+  if (name.ends_with(".bin")) return CompanionKind::kBuffer;
+  const bool is_picture = std::ranges::any_of(kReadPictures, has_extension_of) ||
+                          std::ranges::any_of(kOtherPictures, has_extension_of);
+  return is_picture ? CompanionKind::kPicture : CompanionKind::kOther;
 }
 
-std::optional<std::span<const std::uint8_t>> find_companion(const Companions& companions,
-                                                            std::string_view path) {
-  const auto it = companions.find(companion_key(path));
-  return it == companions.end() ? std::nullopt : std::optional(it->second);
+Expected<const Companions::value_type*> find_companion(const Companions& companions,
+                                                       const StatedPath& stated) {
+  const std::string from_folder = as_utf8(stated.folder) + '/' + as_utf8(stated.path);
+  for (const std::string_view path : {std::string_view(from_folder), stated.path}) {
+    const auto it = companions.find(companion_key(path));
+    if (it != companions.end()) return &*it;
+  }
+  return find_by_name(companions, stated.path);
 }
 
 }  // namespace vitrine::inline codec

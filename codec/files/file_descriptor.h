@@ -30,8 +30,8 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-// Opens /dev/null for each standard stream that is closed. Otherwise the next opened file would get
-// the stream's number, and messages would be written into that file. Call this first in main().
+// Opens /dev/null for each standard stream that is closed. Without this, the next opened file would
+// get the stream's number, and messages would be written into it. Call this first in main().
 inline void keep_standard_streams() {
   int fd = 0;
   while (fd >= 0 && fd <= STDERR_FILENO)

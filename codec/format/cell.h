@@ -23,8 +23,8 @@ constexpr Vec3i middle_of(const Vec3i& cell, std::uint32_t shift) {
   return {(cell.x << shift) + half, (cell.y << shift) + half, (cell.z << shift) + half};
 }
 
-// Returns the offset from the stored middle of a cell to its true middle, which is the same on each
-// axis. Vertices are displayed at the true middle, and errors are computed for the true middle.
+// Returns the offset from the stored middle of a cell to its true middle; it is the same on each
+// axis. Vertices are displayed at the true middle, and errors are computed for it.
 constexpr double display_offset(std::uint32_t shift) {
   return shift > 0 ? -0.5 : 0;
 }

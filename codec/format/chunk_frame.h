@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The properties of a chunk that the decoder knows before it reads the chunk.
+// The properties of a chunk that the decoder takes from the header before it reads the chunk.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@ struct FileBlock {
   std::uint64_t offset = 0, length = 0;  // in bytes; the offset is from the start of the file
 };
 
-// Calls visit(FileBlock) for the base mesh, the atlas, each picture and each optional block. These
-// are at most kMaxPictures + kMaxOptionalBlocks + 2 blocks.
+// Calls visit(FileBlock) for the base mesh, the atlas, each picture and each optional block. There
+// are at most kMaxPictures + kMaxOptionalBlocks + 2 such blocks.
 template <class Visit>
 void for_each_block_beside_chunks(const Manifest& manifest, Visit visit) {
   visit(FileBlock{manifest.base_sha256, manifest.base_offset, manifest.base_length});
@@ -35,8 +35,8 @@ void for_each_block(const Manifest& manifest, Visit visit) {
     visit(FileBlock{chunk.sha256, chunk.offset, chunk.length});
 }
 
-// Whether the blocks in the head are intact: `head`, the first head_bytes() bytes of a file, has
-// for each of its blocks the SHA-256 that `manifest` states.
+// Whether every block in `head` has the SHA-256 that `manifest` states. `head` holds the first
+// Manifest::head_bytes() bytes of a file.
 bool is_intact_head(const Manifest& manifest, std::span<const std::uint8_t> head);
 
 }  // namespace vitrine::inline codec

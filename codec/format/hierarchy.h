@@ -23,8 +23,8 @@ struct Collapse {
   AttributeTuple a1, a2;  // attributes before the collapse; zero for unused entries
 };
 
-// The collapses that lead from one level to the next coarser one. They are in the order in which
-// they are performed: ascending lexicographic order of the merged positions.
+// The collapses that lead from one level to the next coarser level, in the order in which they are
+// performed: ascending lexicographic order of the merged positions.
 using CollapseLevel = std::vector<Collapse>;
 
 // A vertex of a level, and its cell in the next level, which has a finer lattice.
@@ -52,7 +52,7 @@ struct Hierarchy {
   // refined[l] holds all vertices of level l. Empty if level l + 1 has the same lattice.
   std::vector<std::vector<Refined>> refined;
   RegionTree tree;
-  std::vector<std::uint16_t> leaf;                    // per fine vertex: its leaf of `tree`
+  std::vector<std::uint16_t> leaf;                    // per fine-mesh vertex: its leaf in `tree`
   std::vector<std::vector<std::uint32_t>> adjacency;  // per leaf: adjacent leaves, ascending
 };
 

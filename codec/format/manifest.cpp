@@ -509,7 +509,7 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) {
 
 Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limits& limits) {
   auto length = header_bytes(bytes.first(std::min(bytes.size(), kHeaderPrefix)));
-  if (!length) return tl::unexpected(std::move(length.error()));
+  if (!length) return tl::unexpected(length.error());
   if (*length > limits.header_bytes || *length > bytes.size()) {
     return bad("it is cut off ({} of {} bytes)", {bytes.size(), *length});
   }
@@ -532,8 +532,7 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limit
   if (is_textured && m.has_insertions) {
     return bad("a textured model inserts components, which have no texture coordinates");
   }
-  if (auto ok = read_body(in, limits, features, m); !ok)
-    return tl::unexpected(std::move(ok.error()));
+  if (auto ok = read_body(in, limits, features, m); !ok) return tl::unexpected(ok.error());
   if (in.left() != 0) return bad("it holds bytes that belong to nothing");
   return m;
 }

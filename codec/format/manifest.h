@@ -49,8 +49,8 @@ struct ChunkInfo {
   Sha256 sha256{};
 };
 
-// The values that a picture of a texture shows. Each texel of the atlas has the same place in all
-// roles.
+// The kind of values that a picture of a texture shows. A point of the surface has the same place
+// in the pictures of all roles.
 enum class PictureRole : std::uint8_t {
   kBaseColour = 0,  // sRGB, and opacity unless the alpha mode is kOpaque
   kNormal = 1,      // normals in tangent space, as glTF has them
@@ -79,7 +79,8 @@ struct PictureInfo {
 inline constexpr std::uint32_t kMaxAtlasSide = 1u << 20;
 inline constexpr std::uint32_t kMaxPictureSide = 16'384;
 inline constexpr std::size_t kMaxPictures = 64;
-// Maximum side in pixels of the picture in the head, which every viewer decodes first.
+// Maximum side, in pixels, of a picture in the head (Manifest::head_bytes()). Every viewer decodes
+// the pictures in the head first.
 inline constexpr std::uint32_t kMaxHeadPictureSide = 1'024;
 
 // The texture of a model: a display atlas and its pictures. `side` is 0 if the model has none.
@@ -91,8 +92,8 @@ struct TextureInfo {
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   double alpha_cutoff = 0.5;
   bool is_double_sided = false, is_unlit = false;
-  // The pictures in file order. The first `in_head` of them follow the atlas; the rest follow the
-  // chunks.
+  // The pictures in file order. The first `in_head` pictures follow the atlas; the others follow
+  // the chunks.
   std::vector<PictureInfo> pictures;
   std::uint32_t in_head = 0;
 
@@ -107,7 +108,7 @@ enum class OptionalKind : std::uint8_t {
   kSourcePicture = 1,  // the bytes of a picture of the source
 };
 
-// A block at the end of a file, which a reader can do without. `kind` may be any number.
+// A block at the end of a file that a reader does not need. `kind` may be any number.
 struct OptionalBlock {
   std::uint64_t kind = 0;
   std::uint64_t offset = 0;  // bytes from the start of the file
@@ -169,8 +170,8 @@ struct Manifest {
   std::size_t find_chunk(std::uint32_t level, std::uint32_t leaf) const;
 };
 
-// The function header_bytes() returns the size of the header in bytes. `prefix` must hold at least
-// the first kHeaderPrefix bytes of the file.
+// header_bytes() returns the size of the header in bytes. `prefix` must hold at least the first
+// kHeaderPrefix bytes of the file.
 inline constexpr std::size_t kHeaderPrefix = 16;
 Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix);
 
@@ -178,9 +179,9 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix);
 // every count is checked against `limits` and the remaining bytes before memory is allocated.
 Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limits& limits = {});
 
-// Returns the bytes of the header. Also sets the offsets and `file_bytes` of `manifest`. The file's
-// parts follow each other without gaps, in this order: header, base mesh, atlas, pictures in the
-// head, chunks, other pictures, optional blocks.
+// Returns the bytes of the header. Also sets the offsets and `file_bytes` of `manifest`. The parts
+// of the file follow each other without gaps, in this order: header, base mesh, atlas, pictures in
+// the head, chunks, other pictures, optional blocks.
 std::vector<std::uint8_t> write_header(Manifest& manifest);
 
 }  // namespace vitrine::inline codec

@@ -13,8 +13,8 @@
 namespace vitrine::inline codec {
 
 // Returns the parity term of the splits that lead to `level`. The term alternates between 0 and 1
-// from level to level. Without it, rounding would shift v~ by 1/4 unit per level on average. Levels
-// are counted from `last_level`, the finest one, because the encoder starts there.
+// from level to level. Without it, rounding would shift v~ by 1/4 unit per level on average. Counts
+// levels from `last_level`, the finest level, because the encoder starts there.
 constexpr std::int32_t level_parity(std::uint32_t level, std::uint32_t last_level) {
   return static_cast<std::int32_t>((last_level - level) & 1);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tree of regions. A model divides into more regions as its levels get finer. The root is the
 // whole model. From level `fork` on, a node's two children replace the node. The regions of a level
-// are the nodes that have not forked yet but whose parents have. Leaves are numbered from left to
+// are the nodes that have not forked yet, but whose parents have. Leaves are numbered from left to
 // right. A node covers a range of leaves. A region is identified by its first leaf.
 #pragma once
 

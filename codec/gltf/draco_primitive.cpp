@@ -3,7 +3,10 @@
 
 #include <draco/mesh/mesh.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "codec/gltf/draco_data.h"
 #include "codec/gltf/gltf_accessor.h"
@@ -16,9 +19,18 @@ Unexpected bad(const std::string& what) {
   return bad_input("glTF: the Draco data " + what + "; the file is damaged, export it again");
 }
 
+// Whether values of `stored` components can be read as values of `stated` components. Surplus
+// components are dropped, as in other readers. Only the opacity of colours may be missing.
+bool is_width_clear(std::string_view name, std::uint32_t stored, std::uint32_t stated) {
+  return stored >= stated || (name == "COLOR_0" && stored == 3);
+}
+
+// Copies values of `width` components each. Missing components are opacities and become 1.
 template <class T>
 bool copy_values(const draco::PointAttribute& attribute, std::uint32_t points, std::uint32_t width,
                  std::vector<std::uint8_t>& out) {
+  constexpr T kOpaque = std::is_integral_v<T> ? std::numeric_limits<T>::max() : T{1};
+  const auto stored = static_cast<std::uint32_t>(attribute.num_components());
   out.resize(std::size_t{points} * width * sizeof(T));
   std::vector<T> value(width);
   for (std::uint32_t p = 0; p < points; ++p) {
@@ -27,6 +39,7 @@ bool copy_values(const draco::PointAttribute& attribute, std::uint32_t points, s
         !attribute.ConvertValue<T>(at, static_cast<std::int8_t>(width), value.data())) {
       return false;
     }
+    if (stored < width) std::fill(value.begin() + stored, value.end(), kOpaque);
     std::memcpy(out.data() + std::size_t{p} * width * sizeof(T), value.data(), width * sizeof(T));
   }
   return true;
@@ -68,7 +81,8 @@ Expected<void> read_values(const draco::Mesh& mesh, const Json& document, const 
     const auto shape = Accessor::described(document, whole(accessors, name, kAbsent));
     if (!shape) return tl::unexpected(shape.error());
     if (attribute == nullptr ||
-        shape->width() != static_cast<std::uint32_t>(attribute->num_components()) ||
+        !is_width_clear(name, static_cast<std::uint32_t>(attribute->num_components()),
+                        shape->width()) ||
         !copy_values(*attribute, mesh.num_points(), *shape, out.values[name])) {
       return bad("does not match the accessor of " + in_quotes(name));
     }

@@ -43,8 +43,9 @@ ChunkHeader header_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return {at, load<std::uint32_t>(&bytes[at]), load<std::uint32_t>(&bytes[at + 4])};
 }
 
-// Returns the chunk that starts at byte `at`. If no chunk starts there but one starts at the next
-// multiple of 4, returns that chunk: some exporters do not count the padding of a chunk.
+// Returns the chunk that starts at byte `at`. If only the next multiple of 4 is the start of a
+// chunk of a known type, returns that chunk instead: some exporters do not count the padding of a
+// chunk.
 ChunkHeader next_header(std::span<const std::uint8_t> bytes, std::size_t at) {
   const ChunkHeader found = header_at(bytes, at);
   const std::size_t padded = (at + 3) / 4 * 4;
@@ -56,7 +57,7 @@ ChunkHeader next_header(std::span<const std::uint8_t> bytes, std::size_t at) {
 }  // namespace
 
 Expected<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
-  // padding bytes that some exporters count at the file's end, but do not write
+  // Some exporters count up to this number of padding bytes at the file's end without writing them.
   constexpr std::size_t kMostPadding = 3;
   const auto length = stated_length(bytes);
   if (!length) return tl::unexpected(length.error());

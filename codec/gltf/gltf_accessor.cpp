@@ -136,8 +136,9 @@ Expected<Accessor> Accessor::open(const Json& document, GltfBuffer& buffer, std:
   const std::uint64_t view_index = whole(self, "bufferView", kAbsent);
   if (view_index == kAbsent) {
     if (!sparse.is_object()) return bad_accessor(index, "has no buffer view");
-    // All values but the sparse ones are zero, so the view does not bound their number. A real mesh
-    // has other data for each vertex, so the file has at least as many bytes as vertices.
+    // Without a buffer view, all values are zero except the sparse ones, and no view limits their
+    // number. A real mesh has other data for each vertex, so the file has at least as many bytes as
+    // vertices.
     if (out->count_ > buffer.bytes()) return bad_accessor(index, "has more values than the file");
   } else {
     const auto view = buffer.view(view_index);

@@ -14,8 +14,9 @@ namespace vitrine::inline codec {
 // bytes apart. Sparse values replace some of the vectors.
 class Accessor {
  public:
-  // Opens the accessor number `index`. Corrects a byte stride with which the values do not fit
-  // their buffer view, if they fit without gaps. Fails if the values extend beyond the view.
+  // Opens the accessor number `index`. If the values do not fit their buffer view with the stated
+  // byte stride, but fit without gaps, reads them without gaps. Fails if the values extend beyond
+  // the view.
   //
   // `needed` is the number of values to which indices refer, or 0 if unknown. Some exporters state
   // a wrong count. If the stated count is smaller than `needed` or exceeds the view, the accessor
@@ -23,9 +24,9 @@ class Accessor {
   static Expected<Accessor> open(const Json& document, GltfBuffer& buffer, std::uint64_t index,
                                  std::uint64_t needed = 0);
 
-  // Opens the accessor number `index`, but reads from `values`, the decompressed data of a
-  // primitive, stored without gaps. Computes the number of values from the size of the data,
-  // because some exporters state a wrong count.
+  // Opens the accessor number `index`, but reads from `values` instead of a buffer view. `values`
+  // is the decompressed data of a primitive, stored without gaps. Computes the number of values
+  // from the size of the data, because some exporters state a wrong count.
   static Expected<Accessor> over(const Json& document, std::span<const std::uint8_t> values,
                                  std::uint64_t index);
 
@@ -34,8 +35,8 @@ class Accessor {
   bool is_whole() const { return type_ != kFloat; }  // whether components are integers
   // Whether the stated count or byte stride was wrong and was corrected.
   bool is_corrected() const { return is_corrected_; }
-  // Treats integers as normalised. Returns false without any effect if the file already says so, or
-  // if the components are not integers of 8 or 16 bits.
+  // Treats integers as normalised. Returns false without any effect if the file already marks them
+  // as normalised, or if the components are not integers of 8 or 16 bits.
   bool normalise();
   // Returns component k of vector i. Integers are normalised if the file says so.
   double real(std::uint64_t i, std::uint32_t k) const;
@@ -58,15 +59,16 @@ class Accessor {
   static Expected<Accessor> described(const Json& document, std::uint64_t index);
 
  private:
-  // The values of a sparse accessor that replace those of its buffer view. Indices ascend.
+  // The sparse values of an accessor, which replace values of its buffer view. Their indices
+  // ascend.
   struct Sparse {
     std::uint64_t count = 0;
     Type type = kUint;  // component type of the indices
     std::span<const std::uint8_t> indices, values;
 
     std::uint64_t index(std::uint64_t i) const;
-    // Returns the position, in the sparse list, of the first value whose index is at least i, or
-    // `count`.
+    // Returns the position in the sparse list of the first value whose index is at least i, or
+    // `count` if there is none.
     std::uint64_t find(std::uint64_t i) const;
   };
 

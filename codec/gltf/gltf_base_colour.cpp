@@ -55,9 +55,9 @@ const Picture* GltfBaseColours::picture(std::uint64_t index) {
 Expected<const Picture*> GltfBaseColours::find(std::uint64_t index) {
   const auto bytes = pictures_.bytes(index);
   if (!bytes) return tl::unexpected(bytes.error());
-  const Place place{bytes->data(), bytes->size()};
-  auto known = by_place_.find(place);
-  if (known == by_place_.end()) known = by_place_.emplace(place, decode(*bytes)).first;
+  const SpanKey key{bytes->data(), bytes->size()};
+  auto known = by_span_.find(key);
+  if (known == by_span_.end()) known = by_span_.emplace(key, decode(*bytes)).first;
   if (!known->second) return tl::unexpected(known->second.error());
   return &*known->second;
 }

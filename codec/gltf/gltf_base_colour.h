@@ -40,7 +40,7 @@ class GltfBaseColours {
   std::size_t decoded() const;
 
  private:
-  using Place = std::pair<const std::uint8_t*, std::size_t>;
+  using SpanKey = std::pair<const std::uint8_t*, std::size_t>;
 
   const Picture* picture(std::uint64_t index);
   // Returns the picture of an image. If several images have the same bytes, they are decoded only
@@ -52,7 +52,7 @@ class GltfBaseColours {
   GltfPictures& pictures_;
   // key: index of the image; value: null if the image cannot be decoded
   std::map<std::uint64_t, const Picture*> decoded_;
-  std::map<Place, Expected<Picture>> by_place_;
+  std::map<SpanKey, Expected<Picture>> by_span_;
   std::uint64_t pixels_left_;
 };
 

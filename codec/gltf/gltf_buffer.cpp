@@ -10,7 +10,8 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint64_t kMostExpansionInAll = 1024;
-// Most bytes of padding at the end of a buffer that some exporters count but do not write.
+// Some exporters count up to this number of padding bytes at the end of a buffer without writing
+// them.
 constexpr std::uint64_t kMostPadding = 3;
 
 std::string named(std::uint64_t index, const std::string& what) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/gltf/gltf_document.h"
 
+#include <algorithm>
+#include <array>
+#include <set>
+
 #include "codec/gltf/data_uri.h"
 #include "codec/repair/raw_mesh.h"
 
@@ -38,8 +42,8 @@ JsonSize size_of(std::string_view json) {
   return size;
 }
 
-// Whether the reader handles a required extension. Unknown extensions for materials and textures
-// are ignored and reported. Every other required extension must be known.
+// Whether the reader handles an extension. Unknown extensions for materials and textures are
+// ignored and reported.
 bool is_read(std::string_view extension) {
   return extension == "KHR_mesh_quantization" || extension == "KHR_draco_mesh_compression" ||
          extension == "EXT_meshopt_compression" || extension == "EXT_mesh_gpu_instancing" ||
@@ -47,14 +51,43 @@ bool is_read(std::string_view extension) {
          extension.starts_with("EXT_texture_");
 }
 
-Expected<void> check_extensions(const Json& document) {
+// Whether an extension changes or compresses the geometry. A file that requires such an extension
+// cannot be read by a reader that ignores the extension. The words below occur in the names of all
+// such extensions in the registry of glTF. Extensions for lights, metadata, visibility and the like
+// contain none of them.
+bool changes_geometry(std::string_view extension) {
+  constexpr std::array<std::string_view, 13> kWords{
+      "compress",  "quantiz",      "instancing", "voxel",    "splatting", "primitive_restart",
+      "micromesh", "displacement", "micromap",   "accessor", "buffer",    "subdivision",
+      "MPEG_mesh"};
+  return std::ranges::any_of(
+      kWords, [&](std::string_view word) { return extension.find(word) != extension.npos; });
+}
+
+// Returns the required extensions that are not read.
+std::set<std::string> required_but_unread(const Json& document) {
+  std::set<std::string> names;
   for (const Json& name : member(document, "extensionsRequired")) {
-    const std::string extension = name.is_string() ? name.get<std::string>() : std::string();
-    if (is_read(extension)) continue;
+    if (name.is_string() && !is_read(name.get_ref<const std::string&>()))
+      names.insert(name.get<std::string>());
+  }
+  return names;
+}
+
+Expected<void> check_extensions(const Json& document) {
+  for (const std::string& extension : required_but_unread(document)) {
+    if (!changes_geometry(extension)) continue;
     return fail(ErrorCode::kUnsupported, "the glTF needs the extension " + in_quotes(extension) +
                                              ", which is not read; export without it");
   }
   return {};
+}
+
+// Returns a version as text. Some exporters write it as a number.
+std::string version_text(const Json& asset, std::string_view key) {
+  const Json& version = member(asset, key);
+  if (version.is_number() && version.get<double>() == 2) return "2.0";
+  return version.is_string() ? version.get<std::string>() : version.dump();
 }
 
 // Applies glTF's version rules. If the document states minVersion, it must be 2.0. Otherwise
@@ -62,7 +95,7 @@ Expected<void> check_extensions(const Json& document) {
 Expected<void> check_version(const Json& document) {
   const Json& asset = member(document, "asset");
   const bool has_least = !member(asset, "minVersion").is_null();
-  const std::string version = text(asset, has_least ? "minVersion" : "version", "");
+  const std::string version = version_text(asset, has_least ? "minVersion" : "version");
   if (!has_least && member(asset, "version").is_null()) return {};
   if (has_least ? version == "2.0" : version.starts_with("2.")) return {};
   return fail(ErrorCode::kUnsupported,
@@ -87,6 +120,14 @@ Expected<Json> parse_gltf(std::string_view json, const Limits& limits) {
   if (auto ok = check_version(document); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_extensions(document); !ok) return tl::unexpected(ok.error());
   return document;
+}
+
+std::vector<std::string> report_extensions(const Json& document) {
+  const std::set<std::string> names = required_but_unread(document);
+  if (names.empty()) return {};
+  return {counted(names.size(), "required extension") + " not read, such as " +
+          in_quotes(*names.begin()) +
+          "; compare the model with its source, or export the file without it"};
 }
 
 }  // namespace vitrine::inline codec

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "codec/core/limits.h"
 #include "codec/gltf/gltf_json.h"
@@ -14,8 +15,12 @@ namespace vitrine::inline codec {
 // cases:
 // - The text is not JSON or is nested too deeply.
 // - The text has more than `limits.header_bytes` bytes apart from its data: URIs.
-// - The version or a required extension is not supported.
+// - The version is not supported.
+// - The document requires an unsupported extension that changes or compresses the geometry.
 Expected<Json> parse_gltf(std::string_view json, const Limits& limits);
+
+// Returns one line about the required extensions that are ignored, or no line if there are none.
+std::vector<std::string> report_extensions(const Json& document);
 
 // Returns an error that states the fault `what` and advises the user what to do.
 Unexpected bad_gltf(std::string what);

@@ -109,7 +109,7 @@ void GltfMaterials::give_to(RawMesh& mesh) {
 
 std::vector<std::string> GltfMaterials::report() const {
   constexpr std::size_t kMostNames = 4;
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = carried_.report();
   if (!unread_extensions_.empty()) {
     std::string names;
     for (auto it = unread_extensions_.begin(); it != unread_extensions_.end(); ++it) {

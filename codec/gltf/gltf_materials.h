@@ -29,7 +29,8 @@ class GltfMaterials {
 
   const Material& operator[](std::uint16_t index) const { return materials_[index]; }
 
-  // Moves the materials and pictures to the mesh. Drops them if all materials are plain.
+  // Moves the materials and pictures to the mesh. Drops them instead if vertex colours can replace
+  // all materials (is_plain()).
   void give_to(RawMesh& mesh);
 
   // Returns one line for each kind of material property that is not kept.
@@ -52,7 +53,7 @@ class GltfMaterials {
   // is read only once.
   std::map<std::uint64_t, std::uint32_t> carried_images_;
   std::vector<Material> materials_;
-  std::map<std::uint64_t, std::uint16_t> indices_;  // key: index in the document, or kAbsent
+  std::map<std::uint64_t, std::uint16_t> indices_;  // key: index of the material in the document
   std::set<std::string> unread_extensions_;
   std::uint64_t glossy_materials_ = 0, maps_beyond_sets_ = 0, materials_beyond_limit_ = 0;
 };

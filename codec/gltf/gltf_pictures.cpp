@@ -45,10 +45,11 @@ std::vector<std::string> GltfPictures::report() const {
     images[fault].push_back(index);
   std::vector<std::string> lines;
   for (const auto& [fault, indices] : images) {
-    std::string line = "texture map ";
-    if (indices[0] != kAbsent) line += std::to_string(indices[0]) + ' ';
-    line += "not carried: it " + fault;
-    if (indices.size() > 1) line += " (" + std::to_string(indices.size() - 1) + " more like it)";
+    std::string line = counted(indices.size(), "texture map");
+    if (indices[0] != kAbsent)
+      line +=
+          (indices.size() > 1 ? ", first image " : ", image ") + std::to_string(indices[0]) + ',';
+    line += " not carried: it " + fault;
     lines.push_back(std::move(line));
   }
   return lines;

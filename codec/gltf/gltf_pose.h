@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes where the vertices of a glTF primitive are in the scene. Applies the morph targets with
-// the weights of the file, then the skin, or the node's transform if the node has no skin ([glTF]
-// sections 3.7.2.2 and 3.7.3).
+// Computes where the vertices of a glTF primitive are in the scene. First applies the morph targets
+// with the weights of the file. Then applies the skin, or the node's transform if the node has no
+// skin ([glTF] sections 3.7.2.2 and 3.7.3).
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ using Joints = std::vector<Affine>;
 Expected<Joints> joints_of(const Json& document, GltfBuffer& buffer, std::uint64_t node,
                            std::span<const Affine> places);
 
-// Returns the weights of the mesh's morph targets. The node may override those of the mesh.
+// Returns the weights of the mesh's morph targets. A node may override the weights of its mesh.
 std::vector<double> morph_weights(const Json& document, const MeshInstance& instance);
 
 class GltfPose {

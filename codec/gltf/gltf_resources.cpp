@@ -13,14 +13,23 @@ Expected<std::span<const std::uint8_t>> GltfResources::find(std::string_view uri
     return decoded_.emplace_back(*std::move(bytes));
   }
   const std::string path = percent_decoded(uri);
-  const auto bytes = find_companion(companions_, path);
-  if (!bytes) {
-    return bad_input("is the file " + in_quotes(path) +
-                     ", which is not beside the mesh file; copy it there, or export GLB with all "
-                     "in one file");
+  const auto found = find_companion(companions_, {path});
+  if (!found)
+    return bad_input("is the file " + in_quotes(path) + ", which " + found.error().message);
+  const auto& [key, bytes] = **found;
+  if (found_.insert(key).second) bytes_ += bytes.size();
+  return bytes;
+}
+
+std::set<std::string> names_of_files(const Json& document) {
+  std::set<std::string> names;
+  for (const char* list : {"buffers", "images"}) {
+    for (const Json& entry : member(document, list)) {
+      const std::string uri = text(entry, "uri", "");
+      if (!uri.empty() && !is_data_uri(uri)) names.insert(name_key(percent_decoded(uri)));
+    }
   }
-  if (found_.insert(companion_key(path)).second) bytes_ += bytes->size();
-  return *bytes;
+  return names;
 }
 
 }  // namespace vitrine::inline codec

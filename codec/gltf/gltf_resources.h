@@ -11,6 +11,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/files/companions.h"
+#include "codec/gltf/gltf_json.h"
 
 namespace vitrine::inline codec {
 
@@ -20,9 +21,9 @@ class GltfResources {
   GltfResources(const Companions& companions, std::uint64_t file_bytes)
       : companions_(companions), bytes_(file_bytes) {}
 
-  // Returns the data of a URI. The data is valid as long as this object. A URI of a file matches
-  // the companion with the same name, that is the last part of its percent-decoded path. Fails
-  // (kBadInput) with a fault and a next step; the caller adds the place.
+  // Returns the data of a URI. The data is valid as long as this object. If the URI is a path,
+  // percent-decodes the path and finds its file by find_companion(). Fails (kBadInput) with a fault
+  // and a next step; the caller adds the place.
   Expected<std::span<const std::uint8_t>> find(std::string_view uri);
 
   // Returns the total size in bytes of the glTF file and of the companions found so far.
@@ -34,5 +35,8 @@ class GltfResources {
   std::vector<std::vector<std::uint8_t>> decoded_;  // contents of data: URIs
   std::uint64_t bytes_;
 };
+
+// Returns the name_key() of each file to which a glTF document refers: buffers and pictures.
+std::set<std::string> names_of_files(const Json& document);
 
 }  // namespace vitrine::inline codec

@@ -38,13 +38,21 @@ Affine transform_of(const Json& node) {
 struct Visit {
   std::uint64_t node;
   Affine parent;
+  bool is_hidden = false;  // whether a node above hides this node
 };
 
+bool hides(const Json& node) {
+  const Json& visible = member(extension(node, "KHR_node_visibility"), "visible");
+  return visible.is_boolean() && !visible.get<bool>();
+}
+
 // Pushes the nodes in reverse order, so that the first node is popped first.
-void push(const Json& nodes, const Affine& parent, std::vector<Visit>& open) {
+void push(const Json& nodes, const Affine& parent, std::vector<Visit>& open,
+          bool is_hidden = false) {
   const auto first = static_cast<std::ptrdiff_t>(open.size());
   for (const Json& node : nodes) {
-    open.push_back({node.is_number_unsigned() ? node.get<std::uint64_t>() : kAbsent, parent});
+    open.push_back(
+        {node.is_number_unsigned() ? node.get<std::uint64_t>() : kAbsent, parent, is_hidden});
   }
   std::reverse(open.begin() + first, open.end());
 }
@@ -71,6 +79,7 @@ std::uint64_t scene_with_meshes(const Json& document) {
       open.pop_back();
       if (node >= seen.size() || seen[node]) continue;
       seen[node] = true;
+      if (hides(nodes[node])) continue;
       if (whole(nodes[node], "mesh", kAbsent) != kAbsent) return s;
       push(member(nodes[node], "children"), Affine{}, open);
     }
@@ -82,6 +91,9 @@ Unexpected shows_none(std::uint64_t scene, const Json& document) {
   const std::string fault =
       "glTF: its default scene " + std::to_string(scene) + " shows none of the file's meshes";
   const std::uint64_t other = scene_with_meshes(document);
+  const Json& nodes = member(document, "nodes");
+  if (other == kAbsent && std::any_of(nodes.begin(), nodes.end(), hides))
+    return bad_input(fault + ", because nodes are hidden; make them visible and export again");
   if (other == kAbsent) return bad_input(fault + "; export the scene with them");
   return bad_input(fault + ", but scene " + std::to_string(other) +
                    " does; make that the default and export again");
@@ -109,14 +121,35 @@ Expected<GltfScene> read_scene(const Json& document) {
     const Json& node = nodes[visit.node];
     if (auto ok = check_place(node, visit.node); !ok) return tl::unexpected(ok.error());
     const Affine place = visit.parent * transform_of(node);
-    if (const auto mesh = whole(node, "mesh", kAbsent); mesh != kAbsent)
+    const bool is_hidden = visit.is_hidden || hides(node);
+    if (const auto mesh = whole(node, "mesh", kAbsent); mesh != kAbsent && !is_hidden)
       out.meshes.push_back({mesh, visit.node, place});
     if (!out.places.empty()) out.places[visit.node] = place;
-    push(member(node, "children"), place, open);
+    push(member(node, "children"), place, open, is_hidden);
   }
   if (out.meshes.empty() && !member(document, "meshes").empty())
     return shows_none(number, document);
   return out;
+}
+
+std::vector<std::string> report_scene(const Json& document) {
+  std::vector<std::string> lines;
+  const Json& nodes = member(document, "nodes");
+  const auto hidden = static_cast<std::uint64_t>(std::count_if(nodes.begin(), nodes.end(), hides));
+  if (hidden > 0)
+    lines.push_back(counted(hidden, "hidden node") +
+                    " and the nodes below not carried; make them visible and export again");
+  const std::size_t scenes = member(document, "scenes").size();
+  if (scenes > 1)
+    lines.push_back(counted(scenes - 1, "scene") +
+                    " besides the default one not carried; export each scene as its own file");
+  const std::size_t variants =
+      member(extension(document, "KHR_materials_variants"), "variants").size();
+  if (variants > 0)
+    lines.push_back(counted(variants, "material variant") +
+                    " not carried, only the default materials; export each variant as its own "
+                    "file");
+  return lines;
 }
 
 }  // namespace vitrine::inline codec

@@ -40,7 +40,7 @@ GltfSurface surface_of(const Json& material) {
   const Json& emission_texture = member(material, "emissiveTexture");
   const Json& glossy = extension(material, kSpecularGlossiness);
   if (glossy.is_object()) {
-    // The glossiness texture is not read. A surface that has one counts as rough.
+    // The glossiness texture is not read. A surface with such a texture counts as rough.
     const bool has_map = member(glossy, "specularGlossinessTexture").is_object();
     return {.colour = colour_factor(glossy, "diffuseFactor"),
             .colour_texture = member(glossy, "diffuseTexture"),

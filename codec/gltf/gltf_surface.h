@@ -27,7 +27,7 @@ struct GltfSurface {
 };
 
 // Returns the colours of a material. If the material has KHR_materials_pbrSpecularGlossiness, its
-// diffuse colour becomes the base colour, and it is not metallic.
+// diffuse colour becomes the base colour, and the material is not metallic.
 GltfSurface surface_of(const Json& material);
 
 }  // namespace vitrine::inline codec

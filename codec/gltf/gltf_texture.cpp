@@ -13,8 +13,8 @@ Wrap wrap_of(const Json& sampler, std::string_view key) {
 }
 
 // Returns the image of a texture. Prefers the WebP image of EXT_texture_webp to the plain image. If
-// both are missing, returns the image of any other extension, so that a message can name its
-// format.
+// both are missing, returns the image of any other extension, so that an error message can name the
+// image's format.
 std::uint64_t source_of(const Json& texture) {
   std::uint64_t source =
       whole(extension(texture, "EXT_texture_webp"), "source", whole(texture, "source", kAbsent));

@@ -11,7 +11,6 @@
 #include "codec/core/fixed_text.h"
 #include "codec/import/read_mesh.h"
 #include "codec/import/readers.h"
-#include "codec/import/unit_comment.h"
 
 namespace vitrine::inline codec {
 
@@ -59,6 +58,16 @@ inline constexpr ImportFormat kImportFormats[] = {
      .recognises = is_3mf,
      .read = read_3mf,
      .unit = unit_of_3mf},
+    {.name = "DAE",
+     .extension = "dae",
+     .recognises = is_dae,
+     .read = read_dae,
+     .unit = unit_of_dae},
+    {.name = "FBX",
+     .extension = "fbx",
+     .recognises = is_fbx,
+     .read = read_fbx,
+     .unit = unit_of_fbx},
     {.name = "OBJ",
      .extension = "obj",
      .recognises = is_obj,
@@ -66,7 +75,7 @@ inline constexpr ImportFormat kImportFormats[] = {
      .unit = unit_in_comments},
 };
 
-// "PLY, GLB, glTF, STL, OFF, 3MF or OBJ"
+// The text "PLY, GLB, glTF, STL, OFF, 3MF, DAE, FBX or OBJ".
 inline constexpr FixedText kImportFormatNames = join(
     kImportFormats, [](const ImportFormat& format) { return format.name; }, ", ", " or ");
 

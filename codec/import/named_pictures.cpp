@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/import/obj_library.h"
 #include "codec/picture/decode_picture.h"
 #include "codec/picture/sample.h"
 #include "codec/repair/raw_mesh.h"
@@ -29,50 +30,60 @@ bool is_light_blue(const Picture& picture) {
 
 }  // namespace
 
-Expected<std::span<const std::uint8_t>> NamedPictures::bytes(std::string_view name) const {
-  const auto found = find_companion(companions_, name);
-  if (!found) return bad_input("is not beside the mesh file");
-  return *found;
+NamedPictures::Source NamedPictures::source_of(const StatedPath& path) const {
+  auto found = find_companion(companions_, path);
+  // Some programs write a comment after the name, although a name may contain this sign.
+  if (const std::size_t comment = path.path.find(" #"); !found && comment != path.path.npos)
+    found = find_companion(companions_,
+                           {without_end_blanks(path.path.substr(0, comment)), path.folder});
+  if (found) return {(*found)->first, (*found)->second};
+  // no companion has this key, because keys do not end with a slash
+  return {companion_key(path.path) + '/', tl::unexpected(found.error())};
 }
 
-void NamedPictures::note_fault(std::string_view name, const std::string& fault) {
-  faults_.try_emplace(companion_key(name), Fault{std::string(name), fault});
+Expected<Picture> NamedPictures::decode(const Source& source) {
+  if (!source.bytes) return tl::unexpected(source.bytes.error());
+  return decode_picture(*source.bytes, pixels_left_);
 }
 
-const Picture* NamedPictures::find(std::string_view name) {
-  const auto [it, is_new] = decoded_.try_emplace(companion_key(name));
+void NamedPictures::note_fault(const Source& source, const StatedPath& path,
+                               const std::string& fault) {
+  faults_.try_emplace(source.key, PictureFault{as_utf8(path.path), fault});
+}
+
+const Picture* NamedPictures::find(const StatedPath& path) {
+  const Source source = source_of(path);
+  const auto [it, is_new] = decoded_.try_emplace(source.key);
   if (is_new) {
-    const auto encoded = bytes(name);
-    auto picture = encoded ? decode_picture(*encoded, pixels_left_)
-                           : Expected<Picture>(tl::unexpected(encoded.error()));
+    auto picture = decode(source);
     if (picture) {
       pixels_left_ -= std::uint64_t{picture->width} * picture->height;
       it->second = *std::move(picture);
     } else {
-      note_fault(name, picture.error().message);
+      note_fault(source, path, picture.error().message);
     }
   }
   return it->second ? &*it->second : nullptr;
 }
 
-std::optional<std::uint32_t> NamedPictures::carry(std::string_view name) {
-  if (faults_.contains(companion_key(name))) return std::nullopt;
-  const auto encoded = bytes(name);
-  const auto index = encoded ? carried_.add(std::string(name), *encoded, limits_.picture_bytes)
-                             : Expected<std::uint32_t>(tl::unexpected(encoded.error()));
+std::optional<std::uint32_t> NamedPictures::carry(const StatedPath& path) {
+  const Source source = source_of(path);
+  if (faults_.contains(source.key)) return std::nullopt;
+  const auto index =
+      source.bytes ? carried_.add(std::string(path.path), *source.bytes, limits_.picture_bytes)
+                   : Expected<std::uint32_t>(tl::unexpected(source.bytes.error()));
   if (index) return *index;
-  note_fault(name, index.error().message);
+  note_fault(source, path, index.error().message);
   return std::nullopt;
 }
 
-bool NamedPictures::shows_normals(std::string_view name) {
-  const auto [it, is_new] = shows_normals_.try_emplace(companion_key(name), false);
+bool NamedPictures::shows_normals(const StatedPath& path) {
+  const Source source = source_of(path);
+  const auto [it, is_new] = shows_normals_.try_emplace(source.key, false);
   if (is_new) {
-    const auto encoded = bytes(name);
-    const auto picture = encoded ? decode_picture(*encoded, pixels_left_)
-                                 : Expected<Picture>(tl::unexpected(encoded.error()));
+    const auto picture = decode(source);
     it->second = picture && is_light_blue(*picture);
-    if (!picture) note_fault(name, picture.error().message);
+    if (!picture) note_fault(source, path, picture.error().message);
   }
   return it->second;
 }
@@ -80,7 +91,9 @@ bool NamedPictures::shows_normals(std::string_view name) {
 std::vector<std::string> NamedPictures::report_faults() const {
   std::vector<std::string> lines;
   for (const auto& [key, fault] : faults_)
-    lines.push_back("texture map " + in_quotes(fault.name) + " not carried: it " + fault.text);
+    lines.push_back("1 texture map " + in_quotes(fault.name) + " not carried: it " + fault.text);
+  const auto converted = carried_.report();
+  lines.insert(lines.end(), converted.begin(), converted.end());
   return lines;
 }
 
@@ -88,7 +101,8 @@ std::vector<std::string> NamedPictures::report_decoded() const {
   const auto baked = std::count_if(decoded_.begin(), decoded_.end(),
                                    [](const auto& entry) { return entry.second.has_value(); });
   if (baked == 0) return {};
-  return {counted(static_cast<std::uint64_t>(baked), "texture map") + " baked into vertex colours"};
+  return {counted(static_cast<std::uint64_t>(baked), "texture map") +
+          " baked into vertex colours; no step is needed"};
 }
 
 LinearColour sample_upwards(const Picture& picture, double u, double v) {

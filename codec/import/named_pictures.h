@@ -24,41 +24,49 @@ class NamedPictures {
   NamedPictures(const Companions& companions, const Limits& limits)
       : companions_(companions), limits_(limits), pixels_left_(limits.pixels) {}
 
-  // Decodes the picture `name`. Returns null if the picture is missing or cannot be decoded. The
+  // Decodes the picture `path`. Returns null if the picture is missing or cannot be decoded. The
   // pointer is valid as long as this object.
-  const Picture* find(std::string_view name);
+  const Picture* find(const StatedPath& path);
 
-  // Keeps the picture `name` for the mesh and returns its index. Returns nullopt if the picture is
-  // missing, is not PNG, JPEG or WebP, or was found to be damaged.
-  std::optional<std::uint32_t> carry(std::string_view name);
+  // Keeps the picture `path` for the mesh and returns its index. Returns nullopt if the picture is
+  // missing, has a format that is not read, or was found to be damaged.
+  std::optional<std::uint32_t> carry(const StatedPath& path);
 
-  // Whether the picture `name` looks like a tangent-space normal map. Normal maps are mostly light
+  // Whether the picture `path` looks like a tangent-space normal map. Normal maps are mostly light
   // blue; height maps are grey.
-  bool shows_normals(std::string_view name);
+  bool shows_normals(const StatedPath& path);
 
   std::vector<EncodedPicture> take() { return carried_.take(); }
 
-  // Returns one line for each picture that cannot be decoded or kept.
+  // Returns one line for each picture that cannot be decoded or kept, and one about pictures that
+  // were converted.
   std::vector<std::string> report_faults() const;
   // Returns a line with the number of pictures that find() has decoded.
   std::vector<std::string> report_decoded() const;
 
  private:
-  Expected<std::span<const std::uint8_t>> bytes(std::string_view name) const;
-  void note_fault(std::string_view name, const std::string& fault);
+  // A picture to which a path refers: its key in the maps below, and its bytes or the reason why it
+  // cannot be found.
+  struct Source {
+    std::string key;
+    Expected<std::span<const std::uint8_t>> bytes;
+  };
+  Source source_of(const StatedPath& path) const;
+  Expected<Picture> decode(const Source& source);
+  void note_fault(const Source& source, const StatedPath& path, const std::string& fault);
 
-  struct Fault {
+  struct PictureFault {
     std::string name, text;  // the picture's name in the file, and the fault with a next step
   };
 
   const Companions& companions_;
   const Limits& limits_;
   CarriedPictures carried_;
-  // The keys of the maps are the companion_key() of the names, because different names may refer to
-  // the same file.
+  // The keys of the maps are Source::key, not paths. Different paths may refer to the same file,
+  // and equal paths in different folders may refer to different files.
   std::map<std::string, std::optional<Picture>> decoded_;
   std::map<std::string, bool> shows_normals_;
-  std::map<std::string, Fault> faults_;
+  std::map<std::string, PictureFault> faults_;
   std::uint64_t pixels_left_;
 };
 

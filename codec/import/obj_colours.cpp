@@ -51,6 +51,8 @@ void ObjColours::put_opacity_away() {
 
 std::vector<Colour> ObjColours::take(std::size_t vertices, std::vector<std::string>& repairs) {
   if (stated_.empty()) {
+    if (painted_.size() < vertices)
+      repairs.push_back(report_uncoloured(vertices - painted_.size()));
     painted_.resize(vertices, kUnpainted);
     return std::move(painted_);
   }

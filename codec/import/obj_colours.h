@@ -16,8 +16,8 @@ namespace vitrine::inline codec {
 
 class ObjColours {
  public:
-  // Takes the numbers after x, y and z of a vertex: none, w, r g b, or four numbers. Call this for
-  // the vertices in ascending order.
+  // Takes the numbers after x, y and z of a vertex: none, w, r g b, w r g b or r g b a. Call this
+  // for the vertices in ascending order.
   void add(std::size_t vertex, std::span<const float> numbers);
 
   // Reads the colours of a comment that starts with "#MRGB". Each vertex has eight hexadecimal

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "codec/import/readers.h"
+#include "codec/import/stated_colours.h"
 #include "codec/import/text_cursor.h"
 
 namespace vitrine::inline codec {
@@ -25,13 +27,20 @@ constexpr std::array<MapStatement, 7> kMaps{{{"map_kd", &ObjMaterial::diffuse_ma
                                              {"bump", &ObjMaterial::bump_map},
                                              {"map_ke", &ObjMaterial::emission_map}}};
 
-constexpr std::array<std::string_view, 9> kUnreadMaps{
-    "map_Ks", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Tr", "disp", "decal", "refl"};
+constexpr std::array<std::string_view, 10> kUnreadMaps{
+    "map_Ka", "map_Ks", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Tr", "disp", "decal", "refl"};
 
 constexpr double kMostEmission = 1e6;
 
-// An option of a map statement, and the most values that may follow it. Numeric options may have
-// fewer values.
+// The faults of a diffuse colour, as the ends of messages about "colours of 2 materials".
+constexpr std::string_view
+    kClippedDiffuse = " clipped to the range 0 to 1; write Kd with numbers from 0 to 1",
+    kWideDiffuse = " read as 0 to 255; write Kd with numbers from 0 to 1",
+    kCommasInDiffuse = " not carried: numbers have decimal commas; write them with points",
+    kUnreadDiffuse = " not carried: Kd is not red, green and blue; write it as three numbers";
+
+// An option of a map statement, and the largest number of values that may follow it. Options with
+// numbers may have fewer values.
 struct MapOption {
   std::string_view name;
   std::size_t values;
@@ -89,11 +98,6 @@ std::vector<std::string_view> take_values(const MapOption& option, std::string_v
   return values;
 }
 
-std::string_view without_quotes(std::string_view name) {
-  const bool quoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
-  return quoted ? name.substr(1, name.size() - 2) : name;
-}
-
 // Reads the options and the file name of a map. The name may contain blanks, unless an unknown
 // option precedes it.
 ObjMap read_map_name(std::string_view rest) {
@@ -117,10 +121,47 @@ ObjMap read_map_name(std::string_view rest) {
   return out;
 }
 
+// Reads red, green and blue. If only red is stated, green and blue equal it.
 std::optional<std::array<double, 3>> read_colour(TextCursor& text) {
   std::array<double, 3> out;
-  const bool ok = text.read_number(out[0]) && text.read_number(out[1]) && text.read_number(out[2]);
+  if (!text.read_number(out[0])) return std::nullopt;
+  if (text.line_is_done()) return std::array{out[0], out[0], out[0]};
+  const bool ok = text.read_number(out[1]) && text.read_number(out[2]);
   return ok ? std::optional(out) : std::nullopt;
+}
+
+bool is_out_of_range(double part) {
+  return !(part >= 0 && part <= 1);
+}
+
+void read_diffuse(TextCursor& text, ObjMaterial& out) {
+  const TextCursor begin = text;
+  if (const auto colour = read_colour(text)) {
+    out.diffuse = colour;
+    out.diffuse_fault = std::ranges::any_of(*colour, is_out_of_range) ? kClippedDiffuse : "";
+  } else if (begin.has_decimal_comma()) {
+    out.diffuse_fault = kCommasInDiffuse;
+  } else {
+    out.diffuse_fault = kUnreadDiffuse;
+  }
+}
+
+// Scales the diffuse colours of one library if they range from 0 to 255.
+void scale_diffuse(const std::set<ObjMaterial*>& materials) {
+  std::vector<StatedColour> stated;
+  for (const ObjMaterial* material : materials) {
+    if (!material->diffuse) continue;
+    const auto [r, g, b] = *material->diffuse;
+    stated.push_back({static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)});
+  }
+  if (!are_up_to_255(stated)) return;
+  for (ObjMaterial* material : materials) {
+    if (!material->diffuse) continue;
+    for (double& part : *material->diffuse)
+      part /= 255;
+    const bool is_clipped = std::ranges::any_of(*material->diffuse, is_out_of_range);
+    material->diffuse_fault = is_clipped ? kClippedDiffuse : kWideDiffuse;
+  }
 }
 
 // Reads a number in the range 0 to 1. Returns `otherwise` if there is no number.
@@ -137,7 +178,7 @@ double emitted(double value) {
 
 void read_statement(std::string_view keyword, TextCursor& text, ObjMaterial& out) {
   if (keyword == "kd") {
-    if (const auto colour = read_colour(text)) out.diffuse = colour;
+    read_diffuse(text, out);
   } else if (keyword == "ke") {
     if (const auto colour = read_colour(text))
       out.emission = {emitted((*colour)[0]), emitted((*colour)[1]), emitted((*colour)[2])};
@@ -152,10 +193,12 @@ void read_statement(std::string_view keyword, TextCursor& text, ObjMaterial& out
   }
 }
 
-void read_map(std::string_view keyword, TextCursor& text, ObjMaterial& out) {
+void read_map(std::string_view keyword, TextCursor& text, std::string_view folder,
+              ObjMaterial& out) {
   const auto* map = std::ranges::find(kMaps, keyword, &MapStatement::keyword);
   if (map != kMaps.end()) {
     out.*(map->map) = read_map_name(text.rest_of_line());
+    (out.*(map->map)).folder = folder;
   } else if (const auto* unread = std::ranges::find(kUnreadMaps, keyword, lower_case);
              unread != kUnreadMaps.end()) {
     out.unread.insert(*unread);
@@ -164,25 +207,34 @@ void read_map(std::string_view keyword, TextCursor& text, ObjMaterial& out) {
 
 }  // namespace
 
+std::string_view without_quotes(std::string_view name) {
+  const bool quoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
+  return quoted ? name.substr(1, name.size() - 2) : name;
+}
+
 std::string_view without_end_blanks(std::string_view text) {
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
     text.remove_suffix(1);
   return text;
 }
 
-void read_obj_library(std::span<const std::uint8_t> bytes, ObjLibrary& out) {
-  TextCursor text(bytes);
+void read_obj_library(std::span<const std::uint8_t> bytes, std::string_view folder,
+                      ObjLibrary& out) {
+  TextCursor text(without_mark(bytes));
   ObjMaterial* material = nullptr;
+  std::set<ObjMaterial*> materials;
   while (text.seek_word()) {
     const std::string keyword = lower_case(text.word());
     if (keyword == "newmtl") {
       material = &out[std::string(without_end_blanks(text.rest_of_line()))];
+      materials.insert(material);
     } else if (material != nullptr) {
       read_statement(keyword, text, *material);
-      read_map(keyword, text, *material);
+      read_map(keyword, text, folder, *material);
     }
     text.next_line();
   }
+  scale_diffuse(materials);
 }
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of an OBJ file: the vertex colours they give, and the materials that the mesh
-// keeps.
+// The materials of an OBJ, DAE or FBX file: the vertex colours they give, and the materials that
+// the mesh keeps.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,18 @@ class ObjMaterials {
   ObjMaterials(const Companions& companions, const Limits& limits)
       : companions_(companions), pictures_(companions, limits) {}
 
-  // Reads a material library, unless it was read before. Returns false if the library is not among
-  // the companions.
-  bool open_library(std::string_view name);
+  // Reads a material library, unless it was read before. Fails like find_companion(), and if the
+  // library is UTF-16 text.
+  Expected<void> open_library(std::string_view name);
 
-  // Selects the current material and returns its index among the materials kept. An unknown
+  // Adds a material to the library, or replaces the material of the same name.
+  void define(std::string name, ObjMaterial material);
+
+  // Selects the current material and returns its index among the kept materials. An unknown
   // material is white, and is reported if any library was read.
   std::uint16_t use(std::string_view name);
+  // Number of materials in use.
+  std::uint64_t used() const { return used_.size(); }
   bool has_current() const { return current_ != nullptr; }
   // Returns the index of the material for faces that have none.
   std::uint16_t plain();
@@ -44,7 +49,7 @@ class ObjMaterials {
   // it is the diffuse colour Kd, taken as sRGB, or the emission if Kd is black.
   LinearColour colour_at(double u, double v) const;
 
-  // Whether the materials hold nothing that vertex colours cannot express.
+  // Whether vertex colours can express everything that the materials state.
   bool are_plain() const;
 
   // Moves the materials and pictures to the mesh, unless are_plain().
@@ -52,7 +57,8 @@ class ObjMaterials {
 
   // Returns lines for the user about materials that became vertex colours.
   std::vector<std::string> report_baked() const;
-  // Returns one line for each kind of material property that is not kept.
+  // Returns one line for each kind of material property that is not kept, and one about unknown
+  // materials.
   std::vector<std::string> report_unread() const;
 
  private:
@@ -71,16 +77,17 @@ class ObjMaterials {
 
   const Companions& companions_;
   NamedPictures pictures_;
-  std::set<std::string> opened_;  // libraries read; companion_key() of their names
+  std::map<std::string, std::string> opened_;  // libraries read: key -> folder (see StatedPath)
   ObjLibrary library_;
   bool has_library_ = false;
   std::set<std::string, std::less<>> unknown_;  // used materials that no library defines
   std::map<std::string, UsedMaterial, std::less<>> used_;
   const UsedMaterial* current_ = nullptr;
   std::vector<Material> carried_;
-  std::optional<std::uint16_t> plain_;  // result of plain(), once it was called
+  std::optional<std::uint16_t> plain_;  // result of plain(); nullopt before the first call
   std::set<std::string_view> unread_;   // map statements that are not read
-  std::uint64_t beyond_limit_ = 0;      // number of used materials that are not kept
+  std::map<std::string_view, std::uint64_t> diffuse_faults_;  // fault -> number of used materials
+  std::uint64_t beyond_limit_ = 0;  // number of used materials that are not kept
   bool has_maps_ = false;
 };
 

@@ -41,9 +41,9 @@ constexpr std::string_view kBlender = "open it in Blender and export it as GLB",
                                "it as GLB, OBJ or STL",
                            kJson = "export the model as GLB";
 
-// A kind of file that is not read. Its files begin with `magic`, where '?' stands for any byte. If
-// several kinds begin alike, a text somewhere in the file tells them apart.
-struct Kind {
+// A kind of file that Vitrine does not read. Its files begin with `magic`, where '?' stands for any
+// byte. If several kinds begin alike, a file of this kind also contains the text `contains`.
+struct UnreadKind {
   std::string_view name;
   std::string_view magic;
   std::string_view advice;
@@ -54,7 +54,7 @@ struct Kind {
 constexpr std::string_view kCompound = "\xD0\xCF\x11\xE0";
 
 // The first row that matches a file decides its kind.
-constexpr Kind kBinaryKinds[] = {
+constexpr UnreadKind kBinaryKinds[] = {
     {"a USDZ package", "PK\3\4"sv, kBlender, ".usdc"sv},
     {"a USDZ package", "PK\3\4"sv, kBlender, ".usda"sv},
     {"a Word, Excel or PowerPoint document", "PK\3\4"sv, kDocument, "[Content_Types].xml"sv},
@@ -70,8 +70,6 @@ constexpr Kind kBinaryKinds[] = {
     {"a cabinet of Windows", "MSCF"sv, kUnpack},
     {"a 7z package", "7z\xBC\xAF\x27\x1C"sv, kUnpack},
     {"a RAR package", "Rar!\x1A\7"sv, kUnpack},
-    {"an FBX file", "Kaydara FBX Binary"sv, kBlender},
-    {"an FBX file", "; FBX"sv, kBlender},
     {"a Blender file", "BLENDER"sv, kBlender},
     {"a USD file", "PXR-USDC"sv, kBlender},
     {"a USD file", "#usda"sv, kBlender},
@@ -106,6 +104,12 @@ constexpr Kind kBinaryKinds[] = {
     {"a DWG drawing", "AC10"sv, kOwnProgram},
     {"an IFC model of a building", "ISO-10303-21"sv, kCad, "FILE_SCHEMA(('IFC"sv},
     {"a STEP file", "ISO-10303-21"sv, kCad},
+    {"a DirectX file", "xof 03"sv, kOwnProgram},
+    {"an AC3D file", "AC3D"sv, kOwnProgram},
+    {"a Metasequoia file", "Metasequoia Document"sv, kOwnProgram},
+    {"an OpenSceneGraph file", "\xA1\x0E\x91\x6C"sv, "convert it to OBJ with osgconv"sv},
+    {"a Quake model", "IDP2"sv, kOwnProgram},
+    {"a Quake model", "IDP3"sv, kOwnProgram},
     {"a BREP file", "DBRep_DrawableShape"sv, kCad},
     {"a BREP file", "CASCADE Topology"sv, kCad},
     {"a Parasolid file", "**ABCDEFGHIJKLMNOPQRSTUVWXYZ"sv, kCad},
@@ -154,10 +158,11 @@ constexpr Kind kBinaryKinds[] = {
 
 // Kinds of XML and other text files. Each is recognised by a text near the start of the file,
 // compared in lower case.
-constexpr Kind kTextKinds[] = {
-    {"a COLLADA file (DAE)", "<collada"sv, kBlender},
+constexpr UnreadKind kTextKinds[] = {
     {"an X3D file", "<x3d"sv, kMeshLab},
     {"an AMF file", "<amf"sv, kMeshLab},
+    {"a BREP file", "cascade topology v"sv, kCad},
+    {"a tileset of 3D Tiles", "\"geometricerror\""sv, kTiles},
     {"a KML file", "<kml"sv, kDocument},
     {"a CityGML file", "citygml"sv, kBlender},
     {"an SVG picture", "<svg"sv, kPicture},
@@ -201,6 +206,9 @@ constexpr NamedKind kNamedKinds[] = {
     {"a set of Gaussian splats", ".splat", "it has no surface; give the mesh of the object"},
     {"a set of Gaussian splats", ".spz", "it has no surface; give the mesh of the object"},
     {"a Nexus file", ".nxz", "give the mesh from which it was built"},
+    {"a table", ".csv", kDocument},
+    {"a text", ".txt", kDocument},
+    {"a text", ".md", kDocument},
     {"a TGA picture", ".tga", kPicture},
     {"a raw picture of a camera", ".dng", kPicture},
 };
@@ -209,7 +217,7 @@ std::string_view file_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-bool fits(const Kind& kind, std::string_view file) {
+bool fits(const UnreadKind& kind, std::string_view file) {
   const auto agrees = [](char expected, char byte) { return expected == '?' || expected == byte; };
   return file.size() >= kind.magic.size() &&
          std::ranges::equal(kind.magic, file.substr(0, kind.magic.size()), agrees) &&
@@ -223,8 +231,8 @@ bool is_iges(std::string_view file) {
          (file[kColumns] == '\n' || file[kColumns] == '\r');
 }
 
-// Returns how many numbers the cursor's line has, or 0 if it contains anything else. Moves to the
-// next line.
+// Returns how many numbers the current line has, or 0 if the line contains anything else. Moves to
+// the next line.
 int numbers_in_line(TextCursor& text) {
   int numbers = 0;
   double value = 0;
@@ -237,7 +245,7 @@ int numbers_in_line(TextCursor& text) {
 
 // Whether the text begins with lines of at least three numbers, such as x y z and colours. Commas
 // or semicolons may separate the numbers. A line of names, or one or two lines with one number
-// each, may come before.
+// each, may precede the points.
 bool is_list_of_points(std::string_view file) {
   constexpr std::size_t kStart = 2048;
   constexpr int kLines = 3, kMostBefore = 2;
@@ -295,7 +303,7 @@ OtherFile described(std::string_view name, std::string_view advice) {
 // Describes a file by a signature: its first bytes, or bytes at a fixed place.
 std::optional<OtherFile> describe_by_signature(std::span<const std::uint8_t> bytes) {
   const std::string_view file = file_text(bytes);
-  for (const Kind& kind : kBinaryKinds) {
+  for (const UnreadKind& kind : kBinaryKinds) {
     if (fits(kind, file)) return described(kind.name, kind.advice);
   }
   if (is_3ds(bytes)) return described("a 3D Studio file (3DS)", kBlender);
@@ -310,7 +318,7 @@ std::optional<OtherFile> describe_by_signature(std::span<const std::uint8_t> byt
 std::optional<OtherFile> describe_by_text(std::string_view file) {
   constexpr std::size_t kStart = 1024;
   const std::string start = lower_case(file.substr(0, kStart));
-  for (const Kind& kind : kTextKinds) {
+  for (const UnreadKind& kind : kTextKinds) {
     if (start.find(kind.magic) != start.npos) return described(kind.name, kind.advice);
   }
   const std::size_t first = file.find_first_not_of(" \t\r\n");

@@ -7,6 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "codec/gltf/glb_file.h"
+#include "codec/gltf/gltf_document.h"
+#include "codec/gltf/gltf_resources.h"
 #include "codec/import/formats.h"
 #include "codec/import/other_files.h"
 #include "codec/import/text_cursor.h"
@@ -14,9 +17,10 @@
 namespace vitrine::inline codec {
 namespace {
 
-// File name extensions of models. Formats that can store more data come first.
+// File name extensions of models. Formats that can store more data come first. Formats of modelling
+// programs come last, because such files often only accompany the model.
 constexpr std::array<std::string_view, std::size(kImportFormats)> kByContents{
-    ".glb", ".gltf", ".obj", ".ply", ".3mf", ".off", ".stl"};
+    ".glb", ".gltf", ".obj", ".ply", ".3mf", ".off", ".stl", ".fbx", ".dae"};
 
 // Returns the path of a model as the user knows it. A 3MF file is a package; unpack() returns its
 // part 3D/3dmodel.model, which lists the objects. For such a part, returns the path of the 3MF
@@ -35,7 +39,7 @@ bool is_hidden(std::string_view path) {
          path.find("__MACOSX/") != path.npos;
 }
 
-// Returns the index of the name's extension in kByContents, or nullopt if it is not listed there.
+// Returns the index of the name's extension in kByContents, or nullopt if kByContents lacks it.
 std::optional<std::size_t> model_kind(std::string_view key) {
   const auto* found = std::ranges::find_if(
       kByContents, [&](std::string_view extension) { return key.ends_with(extension); });
@@ -51,7 +55,7 @@ bool is_package_name(std::string_view key) {
 
 bool is_wanted(std::string_view path) {
   if (is_hidden(path)) return false;
-  const std::string key = companion_key(path);
+  const std::string key = name_key(path);
   return model_kind(key) || is_package_name(key) || key.ends_with(".model") ||
          companion_kind(key) != CompanionKind::kOther;
 }
@@ -80,31 +84,39 @@ std::optional<LodMark> lod_mark(std::string_view text) {
 
 // A file that may be the model.
 struct Candidate {
-  std::size_t file;   // index in the files of the package
+  std::size_t file;   // index in the files of the package or folder
   std::string model;  // name without folders, extension and level-of-detail mark
   unsigned level;     // level of detail; 0 is the most detailed
   std::size_t kind;   // index in kByContents
 
   auto order() const { return std::pair(level, kind); }
+  // Whether this is a file of a modelling program.
+  bool is_scene() const { return kByContents[kind] == ".fbx" || kByContents[kind] == ".dae"; }
 };
 
 Candidate candidate(std::size_t file, const std::string& path, std::size_t kind) {
-  std::string name = companion_key(path);
+  std::string name = name_key(path);
   name.resize(name.size() - kByContents[kind].size());
   if (const auto mark = lod_mark(name)) name.erase(mark->begin, mark->size);
   const auto level = lod_mark(lower_case(path));
   return {file, name, level ? level->number : 0, kind};
 }
 
-std::vector<Candidate> candidates_in(const std::vector<PackedFile>& files) {
+std::vector<Candidate> candidates_in(std::span<const std::string> paths) {
   std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string path = visible_path(files[i].path);
-    const auto kind = model_kind(companion_key(path));
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string path = visible_path(paths[i]);
+    const auto kind = model_kind(name_key(path));
     if (kind && !is_hidden(path)) candidates.push_back(candidate(i, path, *kind));
   }
   std::ranges::stable_sort(candidates, {}, &Candidate::order);
   return candidates;
+}
+
+// Removes the files of modelling programs if there are other candidates.
+void drop_scenes(std::vector<Candidate>& candidates) {
+  if (!std::ranges::all_of(candidates, &Candidate::is_scene))
+    std::erase_if(candidates, [](const Candidate& other) { return other.is_scene(); });
 }
 
 // Whether all candidates are files of the same model, and the first candidate is better than the
@@ -113,23 +125,30 @@ bool are_one_model(const std::vector<Candidate>& candidates) {
   return std::ranges::all_of(
              candidates,
              [&](const Candidate& other) { return other.model == candidates[0].model; }) &&
-         candidates[0].order() < candidates[1].order();
+         (candidates.size() == 1 || candidates[0].order() < candidates[1].order());
 }
 
-Unexpected too_many(const std::vector<PackedFile>& files,
-                    const std::vector<Candidate>& candidates) {
+Unexpected too_many(std::span<const std::string> paths, const std::vector<Candidate>& candidates,
+                    const std::string& holder) {
   constexpr std::size_t kNamed = 4;
   std::string names;
   for (std::size_t i = 0; i < std::min(candidates.size(), kNamed); ++i)
-    names += (i > 0 ? ", " : "") + in_quotes(files[candidates[i].file].path);
+    names += (i > 0 ? ", " : "") + in_quotes(paths[candidates[i].file]);
   if (candidates.size() > kNamed) names += ", ...";
-  return bad_input("the package has " + counted(candidates.size(), "model") + ", " + names +
-                   "; give one package or file for each of them");
+  return bad_input("the " + holder + " has " + counted(candidates.size(), "model") + ", " + names +
+                   "; give one " + holder + " or file for each of them");
+}
+
+std::vector<std::string> paths_of(const std::vector<PackedFile>& files) {
+  std::vector<std::string> paths;
+  for (const PackedFile& file : files)
+    paths.emplace_back(file.path);
+  return paths;
 }
 
 // Returns the error for a package without a model. If the package itself is of a known, unsupported
-// kind, the error names that kind. Otherwise it names the first file that is a model in an
-// unsupported format. If there is none, it states the number of files.
+// kind, the error names that kind. Otherwise, the error names the first file that is a model in an
+// unsupported format. If there is no such file, the error states the number of files.
 Unexpected no_model(std::span<const std::uint8_t> package, const std::vector<PackedFile>& files) {
   if (const auto kind = describe_other_file(package)) return bad_input(kind->text);
   for (const PackedFile& file : files) {
@@ -150,16 +169,47 @@ std::vector<std::string_view> folders_of(std::string_view path) {
   return folders;
 }
 
-// Returns two numbers of steps between folders: up from `from` to the nearest common folder, then
-// down to `to`.
-std::pair<std::size_t, std::size_t> way(std::string_view from, std::string_view to) {
+// Returns the path `to`, relative to the folder of the path `from`.
+std::string relative_path(std::string_view from, std::string_view to) {
   const auto ups = folders_of(from), downs = folders_of(to);
-  const auto fork = std::ranges::mismatch(ups, downs);
-  return {static_cast<std::size_t>(ups.end() - fork.in1),
-          static_cast<std::size_t>(downs.end() - fork.in2)};
+  const auto fork = std::ranges::mismatch(ups, downs).in1;
+  std::string path;
+  for (auto up = fork; up != ups.end(); ++up)
+    path += "../";
+  return path += to.substr(fork == ups.begin() ? 0 : std::prev(fork)->size());
+}
+
+// Returns the JSON of a glTF file, or an empty text for other files.
+std::string_view json_of_gltf(std::span<const std::uint8_t> model) {
+  if (is_gltf(model)) return {reinterpret_cast<const char*>(model.data()), model.size()};
+  const auto chunks = is_glb(model) ? split_glb(model) : Expected<GlbChunks>();
+  return chunks ? chunks->json : std::string_view();
+}
+
+// Returns the name_key() of each file that a glTF model states. Returns an empty set for models of
+// other formats, and for a damaged glTF.
+std::set<std::string> files_of_gltf(std::span<const std::uint8_t> model) {
+  const std::string_view json = json_of_gltf(model);
+  if (json.empty()) return {};
+  const auto document = parse_gltf(json, {});
+  return document ? names_of_files(*document) : std::set<std::string>();
 }
 
 }  // namespace
+
+Expected<std::optional<ChosenModel>> choose_model(std::span<const std::string> paths,
+                                                  const std::string& holder) {
+  auto candidates = candidates_in(paths);
+  if (candidates.empty()) return std::nullopt;
+  const std::size_t all = candidates.size();
+  drop_scenes(candidates);
+  ChosenModel chosen{.file = candidates[0].file};
+  if (all == 1) return chosen;
+  if (!are_one_model(candidates)) return too_many(paths, candidates, holder);
+  chosen.note = "read " + in_quotes(paths[chosen.file]) + " of the " + counted(all, "file") +
+                " of the model in the " + holder + "; to publish another one, give it alone";
+  return chosen;
+}
 
 Expected<PackagedModel> PackagedModel::open(std::span<const std::uint8_t> package) {
   auto files = unpack(package, is_wanted);
@@ -167,29 +217,41 @@ Expected<PackagedModel> PackagedModel::open(std::span<const std::uint8_t> packag
   PackagedModel model(*std::move(files));
   const bool is_one_file = model.files_.size() == 1 && model.name().empty();
   if (is_one_file) return model;
-  const auto candidates = candidates_in(model.files_);
-  if (candidates.empty()) return no_model(package, model.files_);
-  model.model_ = candidates[0].file;
-  if (candidates.size() == 1) return model;
-  if (!are_one_model(candidates)) return too_many(model.files_, candidates);
-  model.note_ = "read " + in_quotes(model.name()) + " of the " +
-                counted(candidates.size(), "file") +
-                " of the model in the package; to publish "
-                "another one, give it alone";
-  return model;
+  const auto chosen = choose_model(paths_of(model.files_), "package");
+  if (!chosen) return tl::unexpected(chosen.error());
+  if (!*chosen) return no_model(package, model.files_);
+  model.model_ = (*chosen)->file;
+  model.note_ = (*chosen)->note;
+  return model.with_named_files(package);
+}
+
+bool PackagedModel::is_companion(std::string_view path) const {
+  return is_wanted(path) || named_.contains(name_key(path));
+}
+
+Expected<PackagedModel> PackagedModel::with_named_files(std::span<const std::uint8_t> package) {
+  named_ = files_of_gltf(bytes());
+  const bool are_whole = std::ranges::all_of(files_, [&](const PackedFile& file) {
+    return is_wanted(file.path) || !is_companion(file.path);
+  });
+  if (are_whole) return std::move(*this);
+  const std::string path(name());
+  files_.clear();  // saves memory
+  auto files = unpack(package, [&](std::string_view other) { return is_companion(other); });
+  if (!files) return tl::unexpected(files.error());
+  files_ = *std::move(files);
+  const auto at = std::ranges::find(files_, path, &PackedFile::path);
+  model_ = static_cast<std::size_t>(at - files_.begin());
+  return std::move(*this);
 }
 
 Companions PackagedModel::beside() const {
-  std::vector<const PackedFile*> nearest;
-  for (const PackedFile& file : files_) {
-    if (is_wanted(file.path)) nearest.push_back(&file);
-  }
-  std::ranges::stable_sort(nearest, {}, [&](const PackedFile* file) {
-    return std::pair(way(name(), file->path), std::string_view(file->path));
-  });
   Companions companions;
-  for (const PackedFile* file : nearest)
-    companions.emplace(companion_key(file->path), file->bytes);
+  for (const PackedFile& file : files_) {
+    if (is_companion(file.path))
+      companions.emplace(companion_key(relative_path(name(), file.path)), file.bytes);
+  }
+  share_equal_contents(companions);
   return companions;
 }
 

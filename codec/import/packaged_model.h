@@ -2,7 +2,10 @@
 // The model in a zip, tar or gzip package, with its material libraries, buffers and pictures.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,23 +17,34 @@
 
 namespace vitrine::inline codec {
 
+// The file among others that is the model.
+struct ChosenModel {
+  std::size_t file;       // its index
+  std::string note = {};  // says which file was chosen; empty if there was no choice
+};
+
+// Chooses the model among the files of a package or folder: the only file with an extension that
+// formats.h lists. If several files are versions of the same model, chooses the most detailed one,
+// according to the numbers in names such as "bust_lod0". Among equally detailed versions, chooses
+// the format that stores most: GLB, glTF, OBJ, PLY, 3MF, OFF, STL, in this order. FBX and DAE files
+// count only if there is no model in another format, because they are often the source of the
+// model. Returns nullopt if there is no model. Fails (kBadInput) if there are several models, which
+// the message names. `holder` is "package" or "folder", for messages.
+Expected<std::optional<ChosenModel>> choose_model(std::span<const std::string> paths,
+                                                  const std::string& holder);
+
 class PackagedModel {
  public:
-  // Unpacks a package and chooses its model: the only file with an extension of formats.h. If
-  // several files are versions of the same model, chooses the most detailed one, according to the
-  // numbers in names such as "bust_lod0". Among equally detailed versions, chooses the format that
-  // stores most: GLB, glTF, OBJ, PLY, 3MF, OFF, STL, in this order. Fails (kBadInput) if the
-  // package has no model or several models, which the message then names. Also fails with the
-  // errors of unpack().
+  // Unpacks a package and chooses its model by choose_model(). Fails (kBadInput) if the package has
+  // no model. Also fails with the errors of choose_model() and unpack().
   static Expected<PackagedModel> open(std::span<const std::uint8_t> package);
 
   // Path in the package; empty for a gzip file.
   std::string_view name() const { return files_[model_].path; }
   std::span<const std::uint8_t> bytes() const { return files_[model_].bytes; }
 
-  // The other files of the package. If several have the same name, the result contains the one that
-  // is nearest to the model: in its folder, in a subfolder, in the folder above, and so on. The
-  // result is valid while this object exists.
+  // The files of the package to which the model may refer. The result is valid while this object
+  // exists.
   Companions beside() const;
 
   // Returns a note that says which file was chosen, or an empty string if there was no choice.
@@ -39,7 +53,14 @@ class PackagedModel {
  private:
   explicit PackagedModel(std::vector<PackedFile> files) : files_(std::move(files)) {}
 
+  // Whether the model may refer to the file with this path.
+  bool is_companion(std::string_view path) const;
+  // Unpacks the package again if the model names files that were not unpacked whole because of
+  // their extension, such as glTF buffers with the extension ".data".
+  Expected<PackagedModel> with_named_files(std::span<const std::uint8_t> package);
+
   std::vector<PackedFile> files_;
+  std::set<std::string> named_;  // name_key() of the files that a glTF model states
   std::size_t model_ = 0;
   std::string note_;
 };

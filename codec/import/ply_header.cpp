@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "codec/import/text_cursor.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {
@@ -132,7 +133,7 @@ Expected<void> HeaderParser::property(std::string_view line) {
   const auto known = type_of(type);
   if (!known) return bad("unknown type " + in_quotes(type));
   property.type = *known;
-  property.name = take_word(line);
+  property.name = lower_case(take_word(line));
   header_.elements.back().properties.push_back(std::move(property));
   return {};
 }
@@ -169,8 +170,8 @@ Expected<PlyHeader> HeaderParser::parse() {
   return bad("there is no end_header");
 }
 
-// Checks that the data can hold all values. In binary, a value takes its type's size. In text, it
-// takes at least one digit and one separator.
+// Checks that the data can hold all values. In binary files, a value takes its type's size. In text
+// files, a value takes at least one digit and one separator.
 Expected<void> check_size(const PlyHeader& header, std::size_t bytes_left) {
   for (const PlyElement& element : header.elements) {
     std::uint64_t bytes = 0;

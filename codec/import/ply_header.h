@@ -28,8 +28,8 @@ enum class PlyType {
 std::uint32_t byte_size(PlyType type);
 
 struct PlyProperty {
-  std::string name;
-  PlyType type;  // type of the value, or of the values in a list
+  std::string name;  // in lower case
+  PlyType type;      // type of the value, or of the values in a list
   bool is_list = false;
   PlyType count_type = PlyType::kUint8;
 };

@@ -13,7 +13,19 @@ bool has_property(const PlyHeader& header, std::string_view element,
   });
 }
 
+bool lacks_numbers(const PlyHeader& header) {
+  return header.textures.size() > 1 && !has_property(header, "face", is_texnumber);
+}
+
 }  // namespace
+
+std::vector<const Picture*> find_pictures(const PlyHeader& header, NamedPictures& pictures) {
+  std::vector<const Picture*> found;
+  if (!has_texture_coordinates(header) || lacks_numbers(header)) return found;
+  for (const std::string& name : header.textures)
+    found.push_back(pictures.find({name}));
+  return found;
+}
 
 bool has_texture_coordinates(const PlyHeader& header) {
   return has_property(header, "face", is_texcoord) ||
@@ -36,12 +48,12 @@ PlyTextures::PlyTextures(const PlyHeader& header, NamedPictures& pictures)
       count_(header.textures.size()),
       has_coordinates_(has_texture_coordinates(header)) {
   if (!has_coordinates_) return;
-  lacks_numbers_ = count_ > 1 && !has_property(header, "face", is_texnumber);
+  lacks_numbers_ = lacks_numbers(header);
   if (lacks_numbers_) return;
   bool has_picture = false;
   for (const std::string& name : header.textures) {
     Material& material = materials_.emplace_back(Material{.name = name});
-    const auto picture = pictures.carry(name);
+    const auto picture = pictures.carry({name});
     if (!picture) continue;
     material.base_colour_map = TextureMap{.picture = *picture};
     has_picture = true;
@@ -61,8 +73,10 @@ void PlyTextures::give_to(RawMesh& mesh) {
                            " not carried: the file has no texture coordinates; export them, too");
   }
   if (lacks_numbers_) {
-    mesh.repairs.emplace_back(
-        "the faces do not say which texture map they use; export them with texnumber");
+    mesh.repairs.push_back(
+        counted(count_, "texture map") +
+        " not carried: the faces do not say which one they use; export them with "
+        "texnumber");
   }
   if (materials_.empty()) return;
   mesh.materials = std::move(materials_);

@@ -33,6 +33,10 @@ class PlyTextures {
   std::vector<Material> materials_;
 };
 
+// Decodes the pictures of the TextureFile comments if the file has what PlyTextures needs. An entry
+// is null if the picture cannot be decoded.
+std::vector<const Picture*> find_pictures(const PlyHeader& header, NamedPictures& pictures);
+
 bool has_texture_coordinates(const PlyHeader& header);
 
 // Whether the property is the list of texture coordinates at a face's corners.

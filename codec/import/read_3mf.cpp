@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the model part of a 3MF package [3MF]: objects of triangles, their components and colours,
-// as the build items place them. The other parts of the package are companions.
+// Reads the model part of a 3MF package [3MF]: the objects that the build items place, with their
+// triangles, components and colours. The other parts of the package are companions of the part.
 #include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
 #include <pugixml.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "codec/core/parse_number.h"
 #include "codec/gltf/affine.h"
-#include "codec/import/face_colours.h"
 #include "codec/import/readers.h"
+#include "codec/import/stated_colours.h"
 #include "codec/import/text_cursor.h"
 
 namespace vitrine::inline codec {
@@ -20,7 +21,7 @@ namespace {
 
 using Node = pugi::xml_node;
 
-// A unit of 3MF, and the unit that the positions of the mesh get.
+// A unit of 3MF, the unit that the mesh gets, and the factor between the two.
 struct ThreeMfUnit {
   std::string_view name, given;
   double scale;
@@ -36,8 +37,8 @@ std::string_view start_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), kThreeMfStart)};
 }
 
-// Returns the unit that the element "model" states, or millimetres if it states none, as 3MF
-// demands.
+// Returns the unit that the element "model" states, or millimetres if it states none, as the 3MF
+// standard demands.
 const ThreeMfUnit& unit_in(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view kUnit = " unit=";
   std::string_view text = start_of(bytes);
@@ -69,7 +70,8 @@ std::optional<Number> number_in(const Node& node, std::string_view name) {
   return parse_number<Number>(value_of(node, name));
 }
 
-// Returns a transform: twelve numbers, of which the first three are the image of the x axis.
+// Returns the transform of an element, or nullopt if it is damaged. The file states twelve numbers;
+// the first three are the image of the x axis.
 std::optional<Affine> affine_of(const Node& node) {
   const std::string_view text = value_of(node, "transform");
   if (text.empty()) return Affine{};
@@ -81,7 +83,14 @@ std::optional<Affine> affine_of(const Node& node) {
   return Affine{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}, {m[9], m[10], m[11]}};
 }
 
-// Returns a colour such as "#FF8000" or "#FF8000FF".
+// Whether a slicer's user painted the triangle with a filament. Bambu Studio and OrcaSlicer write
+// the attribute paint_color, PrusaSlicer writes mmu_segmentation.
+bool is_painted(const Node& triangle) {
+  return !value_of(triangle, "paint_color").empty() ||
+         !value_of(triangle, "mmu_segmentation").empty();
+}
+
+// Parses a colour such as "#FF8000" or "#FF8000FF".
 StatedColour colour_in(std::string_view text) {
   constexpr std::size_t kDigits = 6;
   StatedColour colour{};
@@ -95,11 +104,18 @@ StatedColour colour_in(std::string_view text) {
   return colour;
 }
 
+// Whether a colour such as "#FF800080" states an opacity that is less than full.
+bool is_translucent_colour(std::string_view text) {
+  constexpr std::size_t kOpacity = 7;
+  return text.size() == kOpacity + 2 && lower_case(text.substr(kOpacity)) != "ff";
+}
+
 // One model file of the package.
-struct Part {
+struct ModelPart {
   pugi::xml_document document;
-  std::map<std::string_view, Node> objects;                       // key: id
-  std::map<std::string_view, std::vector<StatedColour>> colours;  // key: id of the colour group
+  std::map<std::string_view, Node> objects;                       // key: ID of the object
+  std::map<std::string_view, std::vector<StatedColour>> colours;  // key: ID of the colour group
+  std::uint64_t translucent_colours = 0;
 
   bool load(std::span<const std::uint8_t> bytes) {
     if (!document.load_buffer(bytes.data(), bytes.size(), pugi::parse_minimal)) return false;
@@ -114,8 +130,11 @@ struct Part {
     if (kind == "object") objects.emplace(id, resource);
     if (kind != "basematerials" && kind != "colorgroup") return;
     auto& group = colours[id];
-    for (const Node& colour : resource.children())
-      group.push_back(colour_in(value_of(colour, kind == "colorgroup" ? "color" : "displaycolor")));
+    for (const Node& colour : resource.children()) {
+      const auto text = value_of(colour, kind == "colorgroup" ? "color" : "displaycolor");
+      group.push_back(colour_in(text));
+      translucent_colours += is_translucent_colour(text);
+    }
   }
 };
 
@@ -124,8 +143,10 @@ class ThreeMfReader {
   explicit ThreeMfReader(const ReadOptions& options) : options_(options) { mesh_.format = "3MF"; }
 
   Expected<RawMesh> read(std::span<const std::uint8_t> bytes) {
-    const Part* root = part("", bytes);
+    const ModelPart* root = part("", bytes);
     if (root == nullptr) return damaged();
+    if (auto ok = check_extensions(root->document.child("model")); !ok)
+      return tl::unexpected(ok.error());
     const double scale = unit_in(bytes).scale;
     // 3MF files have z up.
     const Affine to_y_up{{scale, 0, 0}, {0, 0, -scale}, {0, scale, 0}, {}};
@@ -135,9 +156,7 @@ class ThreeMfReader {
     if (mesh_.face_count() == 0)
       return bad_input("the 3MF places no object with triangles; export the model again");
     if (has_colours_) colours_.give_to(mesh_);
-    if (textured_ > 0)
-      mesh_.repairs.push_back("textures of " + counted(textured_, "face") +
-                              " not carried: those of 3MF are not read; export GLB");
+    report();
     return std::move(mesh_);
   }
 
@@ -146,30 +165,72 @@ class ThreeMfReader {
     return bad_input("the 3MF's XML is damaged; export the file again");
   }
 
+  // Reads the list of prefixes in `requiredextensions`. Each prefix stands for the namespace of an
+  // extension. Fails if an extension that is not read changes the shape of the meshes [3MF].
+  Expected<void> check_extensions(const Node& model) {
+    constexpr std::array<std::string_view, 2> kRead{"/material/", "/production/"};
+    constexpr std::array<std::string_view, 5> kOfShape{"boolean", "displacement", "volumetric",
+                                                       "implicit", "securecontent"};
+    const std::string_view text = value_of(model, "requiredextensions");
+    TextCursor prefixes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    while (prefixes.seek_word()) {
+      const std::string prefix(prefixes.word());
+      const std::string_view name = model.attribute(("xmlns:" + prefix).c_str()).value();
+      const auto contains = [&](std::string_view part) { return name.find(part) != name.npos; };
+      if (std::ranges::any_of(kRead, contains)) continue;
+      const std::string shown = in_quotes(name.empty() ? prefix : name);
+      if (std::ranges::any_of(kOfShape, contains))
+        return fail(ErrorCode::kUnsupported, "the 3MF needs the extension " + shown +
+                                                 ", which is not read; export it as a plain mesh");
+      unread_extensions_.insert(shown);
+    }
+    return {};
+  }
+
+  void report() {
+    if (textured_ > 0)
+      mesh_.repairs.push_back("textures or mixed materials of " + counted(textured_, "face") +
+                              " not carried: those of 3MF are not read; export GLB");
+    if (painted_ > 0)
+      mesh_.repairs.push_back("colours painted in the slicer on " + counted(painted_, "face") +
+                              " not carried: 3MF does not define them; paint the model in another "
+                              "program and export GLB");
+    if (beams_ > 0)
+      mesh_.repairs.push_back(counted(beams_, "beam") +
+                              " of lattices not carried; export them as a mesh");
+    if (!unread_extensions_.empty())
+      mesh_.repairs.push_back(counted(unread_extensions_.size(), "required extension") +
+                              " not read, such as " + *unread_extensions_.begin() +
+                              "; compare the model with its source");
+  }
+
   // Returns the part with this key, or nullptr if it is damaged. The first call for a key parses
   // the part.
-  const Part* part(const std::string& key, std::span<const std::uint8_t> bytes) {
+  const ModelPart* part(const std::string& key, std::span<const std::uint8_t> bytes) {
     const auto [it, is_new] = parts_.try_emplace(key);
     if (!is_new) return it->second ? &*it->second : nullptr;
     room_ += bytes.size();
     if (!it->second.emplace().load(bytes)) it->second.reset();
+    if (it->second) mesh_.translucent_colours += it->second->translucent_colours;
     return it->second ? &*it->second : nullptr;
   }
 
-  // Adds the object to which an item or component refers to the mesh, with its transform.
-  Expected<void> place(const Part& from, const Node& reference, const Affine& outer, int depth) {
+  // Adds the object to which an item or component refers. Applies the transform of the reference
+  // and then `outer`.
+  Expected<void> place(const ModelPart& from, const Node& reference, const Affine& outer,
+                       int depth) {
     constexpr int kDeepest = 16;
     if (depth > kDeepest || ++placed_ > room_)
       return bad_input("the 3MF's components are in a cycle or too many; export the file again");
     const auto local = affine_of(reference);
     if (!local) return bad_input("a transform in the 3MF is damaged; export the file again");
     const std::string_view path = value_of(reference, "path"), id = value_of(reference, "objectid");
-    const Part* in = &from;
+    const ModelPart* in = &from;
     if (!path.empty()) {
-      const auto bytes = find_companion(options_.beside, path);
-      if (!bytes)
+      const auto found = find_companion(options_.beside, {path});
+      if (!found)
         return bad_input("the 3MF lacks its part " + in_quotes(path) + "; export it again");
-      in = part(companion_key(path), *bytes);
+      in = part((*found)->first, (*found)->second);
       if (in == nullptr) return damaged();
     }
     const auto object = in->objects.find(id);
@@ -178,11 +239,12 @@ class ThreeMfReader {
     return add_object(*in, object->second, outer * *local, depth);
   }
 
-  Expected<void> add_object(const Part& in, const Node& object, const Affine& place_of_object,
+  Expected<void> add_object(const ModelPart& in, const Node& object, const Affine& place_of_object,
                             int depth) {
     if (value_of(object, "type") == "support") return {};
     if (const Node mesh = object.child("mesh")) {
       const std::size_t first = mesh_.positions.size();
+      count_beams(mesh);
       if (auto ok = add_vertices(mesh.child("vertices"), place_of_object); !ok) return ok;
       return add_triangles(in, object, first, place_of_object.mirrors());
     }
@@ -190,6 +252,18 @@ class ThreeMfReader {
       if (auto ok = place(in, component, place_of_object, depth + 1); !ok) return ok;
     }
     return {};
+  }
+
+  // Counts the beams of lattices. The elements may have any namespace prefix.
+  void count_beams(const Node& mesh) {
+    for (const Node& lattice : mesh.children()) {
+      if (local_name(lattice.name()) != "beamlattice") continue;
+      for (const Node& beams : lattice.children()) {
+        if (local_name(beams.name()) != "beams") continue;
+        const auto all = beams.children();
+        beams_ += static_cast<std::uint64_t>(std::distance(all.begin(), all.end()));
+      }
+    }
   }
 
   Expected<void> add_vertices(const Node& vertices, const Affine& place_of_object) {
@@ -205,7 +279,7 @@ class ThreeMfReader {
     return {};
   }
 
-  Expected<void> add_triangles(const Part& in, const Node& object, std::size_t first,
+  Expected<void> add_triangles(const ModelPart& in, const Node& object, std::size_t first,
                                bool is_mirrored) {
     const std::size_t count = mesh_.positions.size() - first;
     for (const Node& node : object.child("mesh").child("triangles").children("triangle")) {
@@ -221,13 +295,15 @@ class ThreeMfReader {
       }
       if (is_mirrored) std::swap(triangle[1], triangle[2]);
       mesh_.add_triangle(triangle);
+      painted_ += is_painted(node);
       colours_.add(triangle, colours_of(in, object, node));
     }
     return {};
   }
 
   // Returns the colours of a triangle's corners.
-  std::array<StatedColour, 3> colours_of(const Part& in, const Node& object, const Node& triangle) {
+  std::array<StatedColour, 3> colours_of(const ModelPart& in, const Node& object,
+                                         const Node& triangle) {
     constexpr std::array<StatedColour, 3> kNone = {kNoColour, kNoColour, kNoColour};
     std::string_view group = value_of(triangle, "pid");
     const bool is_own = !group.empty();
@@ -255,10 +331,11 @@ class ThreeMfReader {
   }
 
   const ReadOptions& options_;
-  std::map<std::string, std::optional<Part>> parts_;
-  // Total size in bytes of all parts. The mesh gets at most as many vertices and faces as this,
-  // however often its objects are repeated.
-  std::uint64_t room_ = 0, placed_ = 0, textured_ = 0;
+  std::map<std::string, std::optional<ModelPart>> parts_;
+  // `room_` is the total size in bytes of all parts. The mesh gets at most this number of vertices
+  // and of faces, even if its objects are repeated.
+  std::uint64_t room_ = 0, placed_ = 0, textured_ = 0, beams_ = 0, painted_ = 0;
+  std::set<std::string> unread_extensions_;  // names in quotes
   RawMesh mesh_;
   FaceColours colours_;
   bool has_colours_ = false;

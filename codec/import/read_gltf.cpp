@@ -3,6 +3,7 @@
 // in scene coordinates.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,6 +18,7 @@
 #include "codec/gltf/gltf_pose.h"
 #include "codec/gltf/gltf_scene.h"
 #include "codec/import/readers.h"
+#include "codec/import/stated_colours.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -157,7 +159,7 @@ class GltfReader {
     const BaseColour base = base_colours_.of(primitive.json);
     const std::uint16_t material = materials_.index_of(primitive.json);
     mesh_.use_material(material);
-    // glTF stores a vertex twice if it has two normals or texture coordinates.
+    // glTF stores a vertex twice if it has two normals or two pairs of texture coordinates.
     mesh_.has_seams =
         mesh_.has_seams || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
     const auto sets = coordinate_accessors(attributes, materials_[material]);
@@ -167,6 +169,7 @@ class GltfReader {
     if (!range) return range;
     it->second = *range;
     if (auto ok = add_colours(primitive, base, *range); !ok) return tl::unexpected(ok.error());
+    note_coordinates(primitive, base, materials_[material]);
     for (std::size_t s = 0; s < sets.size(); ++s) {
       if (sets[s] == kAbsent) continue;
       if (auto ok = add_coordinates(primitive, s, *range); !ok) return tl::unexpected(ok.error());
@@ -211,8 +214,8 @@ class GltfReader {
 
   static std::string texcoord(std::uint64_t n) { return "TEXCOORD_" + std::to_string(n); }
 
-  // Returns, for each set that a map of the material uses, the accessor of the set's coordinates.
-  // Other entries are kAbsent.
+  // Returns the accessor of each set of texture coordinates that a map of the material uses. The
+  // entries of other sets are kAbsent.
   static std::array<std::uint64_t, kCoordinateSets> coordinate_accessors(const Json& attributes,
                                                                          const Material& material) {
     std::array<std::uint64_t, kCoordinateSets> out;
@@ -244,8 +247,19 @@ class GltfReader {
     return {};
   }
 
-  // Limits the effect of repeated meshes: the result must not have more elements than the number of
-  // bytes in the file and its companions, after decompression.
+  // Notes a primitive that lacks the coordinates of a texture map. Its vertices have the
+  // coordinates (0, 0) instead, as in other programs.
+  void note_coordinates(const GltfPrimitive& primitive, const BaseColour& base,
+                        const Material& material) {
+    bool lacks = base.picture != nullptr && !primitive.has(texcoord(base.texture.texcoord));
+    for_each_map(material, [&](const TextureMap& map) {
+      lacks = lacks || !primitive.has(texcoord(map.coordinates));
+    });
+    if (lacks) without_coordinates_.insert(&primitive.json);
+  }
+
+  // Limits the effect of repeated meshes: the result may have at most one vertex and one face per
+  // byte of the file and its companions. Compressed data counts by its decompressed size.
   std::uint64_t room() const { return std::min(buffer_.bytes() + 3, limits_.faces); }
 
   Expected<void> check_room(std::uint64_t count, const char* what) const {
@@ -254,34 +268,43 @@ class GltfReader {
                                        "; export the mesh without instances");
   }
 
-  // Sets each vertex colour to the product of the file's vertex colour, the factor and the texture.
-  // The pixels of the texture are in sRGB, all other colours in linear light.
+  // Sets each vertex colour to the product of the file's vertex colour, the material's factor and
+  // the material's texture. The pixels of the texture are in sRGB, all other colours in linear
+  // light.
   Expected<void> add_colours(const GltfPrimitive& primitive, const BaseColour& base,
                              const Range& range) {
     const bool has_colours = primitive.has("COLOR_0");
     if (!has_colours && base.is_white()) return {};
-    Accessor colours, places;
+    Accessor colours;
     if (has_colours) {
       const auto opened = colours_of(primitive, range);
       if (!opened) return tl::unexpected(opened.error());
       colours = *opened;
     }
-    if (base.picture != nullptr) {
-      const std::string name = texcoord(base.texture.texcoord);
-      if (!primitive.has(name)) return bad_gltf("a textured primitive lacks " + name);
-      const auto opened = coordinates(primitive, name, range);
+    std::optional<Accessor> places;
+    const std::string set = texcoord(base.texture.texcoord);
+    if (base.picture != nullptr && primitive.has(set)) {
+      const auto opened = coordinates(primitive, set, range);
       if (!opened) return tl::unexpected(opened.error());
       places = *opened;
     }
+    // An opaque material ignores the opacity of the colours.
+    const bool has_opacity =
+        has_colours && colours.width() == 4 &&
+        materials_[materials_.index_of(primitive.json)].alpha_mode != AlphaMode::kOpaque;
     mesh_.is_baked = mesh_.is_baked || !base.is_white();
-    has_factors_ = has_factors_ || base.factor != LinearColour{1, 1, 1};
+    if (base.factor != LinearColour{1, 1, 1})
+      factors_.insert(whole(primitive.json, "material", kAbsent));
+    const double scale = has_colours ? scale_of(primitive, colours, range) : 1;
     grow_within(mesh_.attributes.colours, std::size_t{range.first} + range.count, room());
     mesh_.attributes.colours.resize(range.first, kWhite);
     for (std::uint64_t i = 0; i < range.count; ++i) {
       LinearColour colour =
-          base.picture == nullptr ? base.factor : base.at(places.real(i, 0), places.real(i, 1));
+          places ? base.at(places->real(i, 0), places->real(i, 1)) : base.at(0, 0);
       if (has_colours) {
-        colour = colour * LinearColour{colours.real(i, 0), colours.real(i, 1), colours.real(i, 2)};
+        colour = colour *
+                 (LinearColour{colours.real(i, 0), colours.real(i, 1), colours.real(i, 2)} * scale);
+        mesh_.translucent_colours += has_opacity && colours.real(i, 3) < 1;
       }
       mesh_.attributes.colours.push_back(to_srgb(colour));
     }
@@ -296,6 +319,24 @@ class GltfReader {
       return bad_gltf("COLOR_0 does not match POSITION");
     if (opened->normalise()) corrected_.insert(primitive.accessor("COLOR_0"));
     return opened;
+  }
+
+  // Returns the factor that scales the vertex colours to the range 0 to 1. Some exporters write
+  // floats from 0 to 255. Counts values out of range.
+  double scale_of(const GltfPrimitive& primitive, const Accessor& colours, const Range& range) {
+    if (colours.is_whole()) return 1;
+    std::vector<StatedColour> stated(range.count);
+    for (std::uint64_t i = 0; i < range.count; ++i) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const double part = colours.real(i, k);
+        stated[i][k] = std::isnan(part) ? -1.F : static_cast<float>(part);  // both become 0
+      }
+    }
+    const bool is_wide = are_up_to_255(stated);
+    for (const StatedColour& colour : stated)
+      colour_faults_.count(colour, is_wide);
+    if (is_wide) wide_colours_.insert(primitive.accessor("COLOR_0"));
+    return is_wide ? 1.0 / 255 : 1.0;
   }
 
   // Returns the indices of a primitive, or nullopt if it has none.
@@ -361,14 +402,30 @@ class GltfReader {
       lines.insert(lines.end(), more.begin(), more.end());
     };
     const std::uint64_t baked = base_colours_.decoded(), told = baked + pictures_.refused();
-    if (baked > 0) lines.push_back(counted(baked, "texture map") + " baked into vertex colours");
+    if (baked > 0)
+      lines.push_back(counted(baked, "texture map") +
+                      " baked into vertex colours; no step is needed");
     append(pictures_.report());
     if (mesh_.materials.empty() && pictures_.count() > told)
-      lines.push_back(counted(pictures_.count() - told, "texture map") + " not carried");
+      lines.push_back(counted(pictures_.count() - told, "texture map") +
+                      " not carried; assign them to materials that the mesh uses");
     append(materials_.report());
-    if (has_factors_) lines.emplace_back("material colours baked into vertex colours");
+    append(report_extensions(document_));
+    if (!factors_.empty())
+      lines.push_back("colours of " + counted(factors_.size(), "material") +
+                      " baked into vertex colours; use texture maps to keep their borders sharp");
     if (skipped_primitives_ > 0)
-      lines.push_back(counted(skipped_primitives_, "set") + " of points or lines dropped");
+      lines.push_back(counted(skipped_primitives_, "set") +
+                      " of points or lines dropped; convert what you need to triangles");
+    if (!wide_colours_.empty())
+      lines.push_back(counted(wide_colours_.size(), "set") +
+                      " of vertex colours read as 0 to 255; export colours from 0 to 1");
+    append(colour_faults_.report());
+    if (!without_coordinates_.empty())
+      lines.push_back(counted(without_coordinates_.size(), "primitive") +
+                      " without the coordinates of its texture map shows one pixel of the map; "
+                      "export it with texture coordinates");
+    append(report_scene(document_));
     report_corrections();
   }
 
@@ -378,10 +435,11 @@ class GltfReader {
       lines.push_back(
           counted(corrected_.size(), "accessor") +
           " with a wrong count, byte stride or normalisation corrected, first accessor " +
-          std::to_string(*corrected_.begin()));
+          std::to_string(*corrected_.begin()) + "; report it to the makers of the exporter");
     if (buffer_.clipped() > 0)
       lines.push_back(counted(buffer_.clipped(), "buffer view") +
-                      " longer than its buffer by at most 3 bytes of padding");
+                      " longer than its buffer by at most 3 bytes of padding; report it to the "
+                      "makers of the exporter");
     if (dropped_targets_ > 0)
       lines.push_back(counted(dropped_targets_, "morph target") +
                       " not carried: the number of its values is not that of the vertices; export "
@@ -402,14 +460,17 @@ class GltfReader {
   RawMesh mesh_;
   std::map<VertexSource, Range> shared_;             // vertices of the mesh that is being read
   std::map<std::uint64_t, DracoPrimitive> decoded_;  // key: index of the buffer view
-  std::vector<Affine> places_;                       // see GltfScene
+  std::vector<Affine> places_;                       // transforms of the nodes (see GltfScene)
   std::map<std::uint64_t, Joints> skins_;            // key: index of the skin, or kAbsent
   const Joints* joints_ = nullptr;                   // joints of the node that is being read
   std::vector<double> weights_;                      // weights of the node's morph targets
   std::set<std::uint64_t> corrected_;                // indices of accessors that were corrected
+  std::set<const Json*> without_coordinates_;        // primitives that lack texture coordinates
+  std::set<std::uint64_t> wide_colours_;             // accessors of colours from 0 to 255
+  ColourFaults colour_faults_;
   std::uint64_t copies_ = 0, dropped_targets_ = 0;
   std::uint64_t skipped_primitives_ = 0, skipped_points_ = 0;
-  bool has_factors_ = false;
+  std::set<std::uint64_t> factors_;  // materials whose colours became vertex colours
 };
 
 Expected<RawMesh> read_document(std::string_view json, std::span<const std::uint8_t> binary,
@@ -429,11 +490,14 @@ bool is_glb(std::span<const std::uint8_t> bytes) {
   return text_of(bytes).starts_with("glTF");
 }
 
-// A glTF document is a JSON object with the member "asset".
+// A glTF document is a JSON object with the member "asset". A byte order mark may precede it.
+// Tilesets of 3D Tiles have this member too, but no meshes.
 bool is_gltf(std::span<const std::uint8_t> bytes) {
   const std::string_view text = text_of(bytes);
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin != text.npos && text[begin] == '{' && text.find("\"asset\"") != text.npos;
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const auto contains = [&](std::string_view part) { return text.find(part) != text.npos; };
+  return begin != text.npos && text[begin] == '{' && contains("\"asset\"") &&
+         (!contains("\"geometricError\"") || contains("\"meshes\""));
 }
 
 std::string_view unit_of_gltf(std::span<const std::uint8_t>) {

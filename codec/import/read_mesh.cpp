@@ -30,14 +30,6 @@ Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const ReadOption
   return format->read(bytes, options);
 }
 
-// Removes a UTF-8 byte order mark. Some editors write it at the start of a text file.
-std::span<const std::uint8_t> without_mark(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::uint8_t, 3> kMark{0xEF, 0xBB, 0xBF};
-  const bool marked =
-      bytes.size() > kMark.size() && std::equal(kMark.begin(), kMark.end(), bytes.begin());
-  return marked ? bytes.subspan(kMark.size()) : bytes;
-}
-
 Expected<ImportedMesh> read_packaged(std::span<const std::uint8_t> package, ReadOptions options) {
   const auto model = PackagedModel::open(package);
   if (!model) return tl::unexpected(model.error());
@@ -53,6 +45,13 @@ Expected<ImportedMesh> read_packaged(std::span<const std::uint8_t> package, Read
 }
 
 }  // namespace
+
+std::span<const std::uint8_t> without_mark(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 3> kMark{0xEF, 0xBB, 0xBF};
+  const bool marked =
+      bytes.size() > kMark.size() && std::equal(kMark.begin(), kMark.end(), bytes.begin());
+  return marked ? bytes.subspan(kMark.size()) : bytes;
+}
 
 std::string_view stated_unit(std::span<const std::uint8_t> file) {
   if (is_package(file)) {

@@ -3,6 +3,7 @@
 // materials.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "codec/import/named_pictures.h"
@@ -30,6 +31,7 @@ class ObjReader {
       if (keyword == "f") ok = read_face();
       if (keyword == "vt") texture_coordinates();
       if (keyword == "vn") mesh_.has_seams = true;
+      count_other_element(keyword);
       if (keyword == "mtllib") open_libraries(text_.rest_of_line());
       if (keyword == "usemtl") use_material(text_.rest_of_line());
       if (!ok) return bad_line(keyword);
@@ -71,10 +73,31 @@ class ObjReader {
     mesh_.has_seams = true;
   }
 
+  // Counts the statements for elements that are not polygons: points, lines, curves and surfaces.
+  void count_other_element(std::string_view keyword) {
+    constexpr std::array<std::string_view, 5> kOthers{"p", "l", "curv", "curv2", "surf"};
+    const auto* found = std::ranges::find(kOthers, keyword);
+    if (found != kOthers.end()) ++other_elements_[*found];
+  }
+
+  void report_other_elements() {
+    std::uint64_t count = 0;
+    std::string statements;
+    for (const auto& [keyword, uses] : other_elements_) {
+      count += uses;
+      statements +=
+          (statements.empty() ? "" : ", ") + counted(uses, std::string(keyword) + " statement");
+    }
+    if (count == 0) return;
+    mesh_.repairs.push_back(counted(count, "element") + " without faces (" + statements +
+                            ") not carried; convert what you need to polygons");
+  }
+
   // Opens the libraries named in a statement. Blanks separate the names, but a name may also
   // contain blanks. The longest sequence of words that names a library is therefore tried first.
   void open_libraries(std::string_view names) {
     constexpr std::size_t kMostWords = 8;
+    names_library_ = true;
     for (names = without_end_blanks(names); !names.empty();) {
       std::vector<std::size_t> ends;
       for (std::size_t end = 0; ends.size() < kMostWords && end < names.size();) {
@@ -83,7 +106,7 @@ class ObjReader {
         ends.push_back(end);
       }
       const auto found = std::find_if(ends.rbegin(), ends.rend(), [&](std::size_t end) {
-        return materials_.open_library(names.substr(0, end));
+        return materials_.open_library(names.substr(0, end)).has_value();
       });
       const std::size_t end = found == ends.rend() ? take_missing(names, ends) : *found;
       names.remove_prefix(std::min(names.find_first_not_of(" \t", end), names.size()));
@@ -97,8 +120,9 @@ class ObjReader {
         ends, [&](std::size_t at) { return lower_case(names.substr(0, at)).ends_with(".mtl"); });
     const std::size_t size = end == ends.end() ? ends.front() : *end;
     constexpr std::size_t kMostNamed = 8;
+    const std::string_view name = names.substr(0, size);
     if (missing_libraries_.size() < kMostNamed)
-      missing_libraries_.insert(in_quotes(names.substr(0, size)));
+      missing_libraries_.try_emplace(as_utf8(name), materials_.open_library(name).error().message);
     return size;
   }
 
@@ -106,6 +130,7 @@ class ObjReader {
     // The faces read before the first `usemtl` statement have no material.
     if (mesh_.face_count() > 0 && !has_material_) materials_.plain();
     has_material_ = true;
+    if (!names_library_) before_library_.emplace(without_end_blanks(name));
     mesh_.use_material(materials_.use(name));
   }
 
@@ -152,7 +177,9 @@ class ObjReader {
     std::vector<std::string>& lines = mesh_.repairs;
     if (!colours_.empty()) {
       if (!means_.empty() && materials_.are_plain())
-        lines.emplace_back("materials not carried: the vertices have colours of their own");
+        lines.push_back(counted(materials_.used(), "material") +
+                        " not carried: the vertices have colours of their own; remove these to use "
+                        "the materials");
       mesh_.attributes.colours = colours_.take(mesh_.positions.size(), lines);
     } else if (!means_.empty()) {
       means_.resize(mesh_.positions.size());
@@ -160,12 +187,24 @@ class ObjReader {
       mesh_.is_baked = true;
       lines = materials_.report_baked();
     } else if (missing_libraries_.empty() && !places_.empty()) {
-      lines.emplace_back("texture coordinates not carried");
+      lines.push_back(counted(places_.size(), "texture coordinate") +
+                      " not carried; to use them, name a material with a texture map");
     }
-    for (const std::string& name : missing_libraries_)
-      lines.push_back("material library " + name + " not carried: it is not beside the mesh file");
+    for (const auto& [name, fault] : missing_libraries_)
+      lines.push_back("1 material library " + in_quotes(name) + " not carried: it " + fault);
+    report_other_elements();
+    report_materials_before_library();
     const auto unread = materials_.report_unread();
     lines.insert(lines.end(), unread.begin(), unread.end());
+  }
+
+  // A `usemtl` statement has no effect before the file has named a library.
+  void report_materials_before_library() {
+    if (before_library_.empty()) return;
+    mesh_.repairs.push_back(counted(before_library_.size(), "material") + " not carried, such as " +
+                            in_quotes(*before_library_.begin()) +
+                            ": the file names no material library before it uses them; add a line "
+                            "mtllib with the name of the .mtl file at its start");
   }
 
   Unexpected bad_line(std::string_view keyword) const {
@@ -189,13 +228,16 @@ class ObjReader {
   RawMesh mesh_;
   ObjColours colours_;
   std::vector<std::uint32_t> corners_;          // corners of the face being read
-  std::vector<TextureCoordinates> at_corners_;  // empty if no material has a map
+  std::vector<TextureCoordinates> at_corners_;  // coordinates; empty if no material has a map
   ObjMaterials materials_;
-  std::vector<std::array<float, 2>> places_;  // all texture coordinates of the file
-  ColourMeans means_;                         // mean material colours; may be empty
-  std::set<std::string> missing_libraries_;   // names in quotes, for the report
-  bool has_material_ = false;                 // whether a `usemtl` statement was read
-  bool is_cut_ = false;                       // whether the file ends before a face's third corner
+  std::vector<std::array<float, 2>> places_;                  // all texture coordinates of the file
+  ColourMeans means_;                                         // mean material colours
+  std::map<std::string_view, std::uint64_t> other_elements_;  // key: keyword
+  std::map<std::string, std::string> missing_libraries_;      // name -> why it is not read
+  std::set<std::string> before_library_;  // materials used before the first `mtllib` statement
+  bool names_library_ = false;            // whether a `mtllib` statement was read
+  bool has_material_ = false;             // whether a `usemtl` statement was read
+  bool is_cut_ = false;                   // whether the file ends before a face's third corner
 };
 
 }  // namespace

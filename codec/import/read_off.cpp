@@ -5,8 +5,8 @@
 #include <array>
 #include <optional>
 
-#include "codec/import/face_colours.h"
 #include "codec/import/readers.h"
+#include "codec/import/stated_colours.h"
 #include "codec/import/text_cursor.h"
 
 namespace vitrine::inline codec {
@@ -17,9 +17,9 @@ struct OffKeyword {
   std::size_t size = 0;  // length of the keyword in bytes; 0 if the file has none
   bool has_colours = false, has_normals = false, has_coordinates = false;
   bool has_more_dimensions = false;
-  // Whether the colour of a vertex precedes its normal. In Geomview files, the keyword letters are
-  // in the order STCN, but normals precede colours. Programs that write N before C, such as
-  // MeshLab, write colours first.
+  // Whether the colour of a vertex precedes its normal. Geomview writes the keyword letters in the
+  // order STCN, and normals before colours. Programs that write N before C, such as MeshLab, write
+  // colours before normals.
   bool colours_come_first = false;
 };
 
@@ -83,7 +83,6 @@ class OffReader {
       return fail(ErrorCode::kUnsupported,
                   "OFF with four or n dimensions is not read; export three dimensions");
     }
-    if (keyword_.has_coordinates) mesh_.repairs.emplace_back("texture coordinates not carried");
     double edges = 0;
     if (!text_.seek_word() || !text_.read_number(vertices_)) {
       if (text_.word() == "BINARY") {
@@ -94,6 +93,9 @@ class OffReader {
     if (!text_.seek_word() || !text_.read_number(faces_))
       return bad("the number of faces is missing");
     text_.read_number(edges);  // the value is ignored: it is often wrong or missing
+    if (keyword_.has_coordinates)
+      mesh_.repairs.push_back(counted(vertices_, "texture coordinate") +
+                              " not carried; OFF names no picture, so export the mesh as GLB");
     // A vertex takes at least the six bytes of "0 0 0\n", or five at the end of the file. A face
     // takes at least two bytes.
     if (vertices_ > text_.left() / 6 + 1 || faces_ > text_.left() / 2 + 1) {
@@ -121,7 +123,7 @@ class OffReader {
     return true;
   }
 
-  // Reads the rest of the numbers on the line and returns how many there are.
+  // Reads the remaining numbers on the line into `extra_` and returns how many there are.
   std::size_t read_extra() {
     std::size_t count = 0;
     while (count < extra_.size() && text_.read_number(extra_[count]))
@@ -143,6 +145,7 @@ class OffReader {
     const std::size_t begin = keyword_.colours_come_first ? 0 : normals;
     colours_.resize(mesh_.positions.size() - 1, kNoColour);
     colours_.push_back({extra_[begin], extra_[begin + 1], extra_[begin + 2]});
+    if (count >= others + 4) mesh_.translucent_colours += is_translucent(extra_[begin + 3]);
     return true;
   }
 
@@ -157,6 +160,7 @@ class OffReader {
       mesh_.repairs.push_back(
           "numbers after the coordinates of " + counted(colours_.size(), "line") +
           " not carried: they are no colours; name them in the keyword, such as NOFF");
+      mesh_.translucent_colours = 0;
       return;
     }
     colours_.resize(mesh_.positions.size(), kNoColour);
@@ -174,6 +178,7 @@ class OffReader {
     mesh_.add_face(corners_, text_.line());
     const std::size_t extra = read_extra();
     if (extra >= 3) face_colours_.add(corners_, {extra_[0], extra_[1], extra_[2]});
+    if (extra >= 4) mesh_.translucent_colours += is_translucent(extra_[3]);
     numbered_colours_ += extra == 1;
     text_.next_line();
     return true;

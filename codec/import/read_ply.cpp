@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads PLY. The header lists the elements and their properties. Elements and properties with
 // unknown names are skipped.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "codec/core/byte_cursor.h"
-#include "codec/import/face_colours.h"
 #include "codec/import/named_pictures.h"
 #include "codec/import/ply_header.h"
 #include "codec/import/ply_textures.h"
@@ -99,7 +99,9 @@ class BinaryValues {
   ByteReader bytes_;
 };
 
-enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kPacked, kNowhere };
+constexpr std::uint64_t kMostNamed = 4;  // of the properties that are not read
+
+enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kPacked, kAlpha, kNowhere };
 
 using SlotValues = std::array<double, kNowhere + 1>;
 
@@ -108,8 +110,8 @@ bool is_real(PlyType type) {
 }
 
 // Whether the property is a colour packed into one number, as the Point Cloud Library writes it.
-// From the highest byte to the lowest, the number holds opacity, red, green and blue. A float has
-// the same bits.
+// From the highest byte to the lowest, the number holds opacity, red, green and blue. A float
+// property holds the same bits.
 bool is_packed_colour(const PlyProperty& property) {
   const bool fits = property.type == PlyType::kInt32 || property.type == PlyType::kUint32 ||
                     property.type == PlyType::kFloat32;
@@ -139,6 +141,7 @@ Slot slot_of(const PlyProperty& property) {
   if (name == "red" || name == "r" || name == "diffuse_red") return kRed;
   if (name == "green" || name == "g" || name == "diffuse_green") return kGreen;
   if (name == "blue" || name == "b" || name == "diffuse_blue") return kBlue;
+  if (name == "alpha" || name == "a" || name == "diffuse_alpha") return kAlpha;
   if (is_packed_colour(property)) return kPacked;
   if (is_vertex_u(property)) return kU;
   if (is_vertex_v(property)) return kV;
@@ -158,15 +161,26 @@ double scale_of(PlyType type) {
   }
 }
 
-// Says which properties of a vertex the reader uses, and for what.
+// Whether the reader needs a property of a vertex, or may drop it without a loss: normals follow
+// from the faces.
+bool is_known_of_vertex(const PlyProperty& property) {
+  const std::string& name = property.name;
+  return slot_of(property) != kNowhere || name == "nx" || name == "ny" || name == "nz";
+}
+
+// Describes which properties of a vertex the reader uses, and how.
 struct VertexPlan {
   std::vector<Slot> slots;
-  std::vector<PlyType> types;  // types as which the values are read
+  std::vector<PlyType> types;  // per property: the type with which it is read
   unsigned found = 0;          // bit n is set if the file has slot n
   double colour_scale = 1;
   bool has_normal = false;
-  bool has_real_colour = false;  // float colours may range up to 1 or up to 255
-  bool has_float_bits = false;   // whether packed colours are stored as floats
+  // Whether the range of the colours is unknown: floats are up to 1 or up to 255, 16-bit integers
+  // are up to 65535 or up to 255.
+  bool has_open_range = false;
+  bool has_float_bits = false;  // whether packed colours are stored as floats
+  bool has_packed_alpha = false;
+  double alpha_scale = 1;
 
   VertexPlan(const PlyElement& element, bool is_text) {
     for (const PlyProperty& property : element.properties) {
@@ -175,15 +189,20 @@ struct VertexPlan {
       slots.push_back(slot);
       types.push_back(has_bits ? PlyType::kUint32 : property.type);
       has_float_bits = has_float_bits || (has_bits && is_text);
-      has_real_colour = has_real_colour || (slot == kRed && is_real(property.type));
+      has_open_range =
+          has_open_range ||
+          (slot == kRed && (is_real(property.type) || property.type == PlyType::kUint16));
       found |= 1u << slot;
       has_normal = has_normal || property.name == "nx";
+      has_packed_alpha = has_packed_alpha || (slot == kPacked && property.name == "rgba");
       if (slot == kRed) colour_scale = scale_of(property.type);
+      if (slot == kAlpha) alpha_scale = scale_of(property.type);
     }
   }
   bool has_position() const { return (found & 7) == 7; }
   bool has_colour() const { return (found >> kRed & 7) == 7; }
   bool has_packed_colour() const { return !has_colour() && (found >> kPacked & 1) == 1; }
+  bool has_alpha() const { return has_colour() && (found >> kAlpha & 1) == 1; }
   bool has_place() const { return (found >> kU & 3) == 3; }
 };
 
@@ -194,9 +213,7 @@ class BodyReader {
       : header_(header),
         values_(values),
         pictures_(options.beside, options.limits),
-        picture_(header.textures.size() == 1 && has_texture_coordinates(header)
-                     ? pictures_.find(header.textures[0])
-                     : nullptr),
+        found_(find_pictures(header, pictures_)),
         textures_(header, pictures_) {
     mesh_.format = "PLY";
   }
@@ -214,7 +231,7 @@ class BodyReader {
 
  private:
   void finish_texture() {
-    if (picture_ != nullptr && !means_.empty() && mesh_.attributes.colours.empty()) {
+    if (!means_.empty() && mesh_.attributes.colours.empty()) {
       means_.resize(mesh_.positions.size());
       mesh_.attributes.colours = means_.take();
       mesh_.is_baked = true;
@@ -227,10 +244,12 @@ class BodyReader {
     mesh_.repairs.insert(mesh_.repairs.end(), lines.begin(), lines.end());
   }
 
-  void add_sample(std::uint32_t vertex, double u, double v) {
-    if (vertex >= mesh_.positions.size()) return;
+  // Adds the colour of picture `number` at (u, v) to the mean colour of a vertex.
+  void add_sample(std::uint32_t vertex, double u, double v, std::uint32_t number = 0) {
+    const Picture* picture = number < found_.size() ? found_[number] : nullptr;
+    if (picture == nullptr || vertex >= mesh_.positions.size()) return;
     means_.resize(mesh_.positions.size());
-    means_.add(vertex, sample_upwards(*picture_, u, v));
+    means_.add(vertex, sample_upwards(*picture, u, v));
   }
 
   Expected<void> read_element(const PlyElement& element) {
@@ -240,6 +259,9 @@ class BodyReader {
     if (element.name == "tristrips") {
       return read_faces(element, "vertex_ind", &BodyReader::strip_of);
     }
+    if (element.name == "edge" && element.count > 0)
+      mesh_.repairs.push_back(counted(element.count, "edge") +
+                              " not carried; convert what you need to faces");
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties)
         skip(property);
@@ -270,24 +292,53 @@ class BodyReader {
       if (values_.has_failed()) return cut_short(element, i);
       mesh_.positions.push_back({row[kX], row[kY], row[kZ]});
       add_colour(plan, row, stated);
-      if (plan.has_place() && picture_ != nullptr) {
+      if (plan.has_place() && found_.size() == 1) {
         add_sample(static_cast<std::uint32_t>(i), row[kU], row[kV]);
       }
       if (plan.has_place() && !textures_.empty())
         mesh_.vertex_coordinates[0].push_back(from_upwards(row[kU], row[kV]));
     }
+    if (plan.colour_scale == scale_of(PlyType::kUint16)) scale_wide(stated);
     if (!stated.empty()) mesh_.attributes.colours = to_colours(stated, mesh_.repairs);
+    report_unread(element);
     return {};
   }
 
-  // Adds a vertex colour to the mesh, or to `stated` while the range of its values is unknown.
+  // Scales colours of 16-bit integers to the range 0 to 1, unless none is above 255.
+  static void scale_wide(std::vector<StatedColour>& stated) {
+    const auto is_wide = [](const StatedColour& colour) { return std::ranges::max(colour) > 255; };
+    if (std::ranges::none_of(stated, is_wide)) return;
+    for (StatedColour& colour : stated) {
+      for (float& part : colour)
+        part /= 65535;
+    }
+  }
+
+  void report_unread(const PlyElement& element) {
+    std::string names;
+    std::uint64_t count = 0;
+    for (const PlyProperty& property : element.properties) {
+      if (is_known_of_vertex(property)) continue;
+      if (++count <= kMostNamed) names += (names.empty() ? "" : ", ") + in_quotes(property.name);
+    }
+    if (count > 0)
+      mesh_.repairs.push_back(counted(count, "kind") + " of values at the vertices not carried: " +
+                              names + "; to show them, bake them into colours");
+  }
+
+  // Adds a vertex colour to the mesh. Adds it to `stated` instead if its range is known only after
+  // the last vertex.
   void add_colour(const VertexPlan& plan, const SlotValues& row,
                   std::vector<StatedColour>& stated) {
     std::vector<Colour>& colours = mesh_.attributes.colours;
     const double scale = plan.colour_scale;
+    if (plan.has_alpha())
+      mesh_.translucent_colours += is_translucent(row[kAlpha] * plan.alpha_scale);
     if (plan.has_packed_colour()) {
-      colours.push_back(unpacked(packed_bits(row[kPacked], plan.has_float_bits)));
-    } else if (plan.has_colour() && plan.has_real_colour) {
+      const std::uint32_t bits = packed_bits(row[kPacked], plan.has_float_bits);
+      colours.push_back(unpacked(bits));
+      mesh_.translucent_colours += plan.has_packed_alpha && bits >> 24 != 255;
+    } else if (plan.has_colour() && plan.has_open_range) {
       stated.push_back(stated_colour(row));
     } else if (plan.has_colour()) {
       colours.push_back(
@@ -300,7 +351,8 @@ class BodyReader {
             static_cast<float>(row[kBlue])};
   }
 
-  // Reads the lists of vertex indices of an element. The name of their property starts with `list`.
+  // Reads the lists of vertex indices in an element, and passes each list to `add`. The property
+  // with the lists has a name that starts with `list`.
   Expected<void> read_faces(const PlyElement& element, std::string_view list,
                             void (BodyReader::*add)(const std::vector<std::uint32_t>&)) {
     if (element.name == "face") mesh_.reserve_faces(element.count);
@@ -308,7 +360,9 @@ class BodyReader {
     for (const PlyProperty& p : element.properties) {
       has_list = has_list || (p.is_list && p.name.starts_with(list));
       if (p.name == "texcoord" && !uses_places()) {
-        mesh_.repairs.emplace_back("texture coordinates not carried");
+        mesh_.repairs.push_back("texture coordinates of " + counted(element.count, "face") +
+                                " not carried; to use them, name the picture in a comment "
+                                "TextureFile");
       }
     }
     if (!has_list)
@@ -317,7 +371,10 @@ class BodyReader {
       read_row(element, list);
       if (values_.has_failed()) return cut_short(element, i);
       if (!row_.has_corners) continue;
-      if (row_.colour_parts == 7) face_colours_.add(row_.corners, row_.colour);
+      if (row_.colour_parts == 7) {
+        face_colours_.add(row_.corners, row_.colour);
+        mesh_.translucent_colours += is_translucent(row_.opacity);
+      }
       apply_places();
       (this->*add)(row_.corners);
     }
@@ -325,7 +382,7 @@ class BodyReader {
   }
 
   // Whether the reader needs the texture coordinates of corners.
-  bool uses_places() const { return picture_ != nullptr || !textures_.empty(); }
+  bool uses_places() const { return !textures_.empty(); }
 
   void read_row(const PlyElement& element, std::string_view list) {
     row_.clear();
@@ -341,6 +398,8 @@ class BodyReader {
         row_.colour[part] =
             static_cast<float>(values_.real(property.type) * scale_of(property.type));
         row_.colour_parts |= 1u << part;
+      } else if (slot == kAlpha) {
+        row_.opacity = values_.real(property.type) * scale_of(property.type);
       } else {
         skip(property);
       }
@@ -373,7 +432,7 @@ class BodyReader {
     at_corners_.clear();
     for (std::size_t i = 0; i < row_.places.size(); ++i) {
       const auto [u, v] = row_.places[i];
-      if (picture_ != nullptr) add_sample(row_.corners[i], u, v);
+      add_sample(row_.corners[i], u, v, row_.texnumber);
       if (!textures_.empty()) at_corners_.push_back(from_upwards(u, v));
     }
     if (!textures_.empty()) mesh_.use_material(textures_.material_of(row_.texnumber));
@@ -422,21 +481,23 @@ class BodyReader {
     std::uint32_t texnumber = 0;
     bool has_corners = false;
     StatedColour colour{};
-    unsigned colour_parts = 0;  // bit set of the components of `colour` in this row
+    unsigned colour_parts = 0;  // bit k is set if this row has component k of `colour`
+    double opacity = 1;
 
     void clear() {
       corners.clear(), places.clear();
-      texnumber = 0, has_corners = false, colour_parts = 0;
+      texnumber = 0, has_corners = false, colour_parts = 0, opacity = 1;
     }
   };
 
   NamedPictures pictures_;
-  const Picture* picture_;  // source of the vertex colours; null if there is none
+  // The pictures that give the vertex colours, by number. An entry may be null.
+  std::vector<const Picture*> found_;
   PlyTextures textures_;
   FaceColours face_colours_;
-  ColourMeans means_;                           // empty if no corner has texture coordinates
+  ColourMeans means_;                           // mean picture colour per vertex; may be empty
   FaceRow row_;                                 // the row being read
-  std::vector<TextureCoordinates> at_corners_;  // coordinates of row_'s face; empty if not kept
+  std::vector<TextureCoordinates> at_corners_;  // texture coordinates of the face; may be empty
   RawMesh mesh_;
 };
 

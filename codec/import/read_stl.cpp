@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "codec/core/byte_cursor.h"
-#include "codec/import/face_colours.h"
 #include "codec/import/readers.h"
+#include "codec/import/stated_colours.h"
 #include "codec/import/text_cursor.h"
 #include "codec/repair/weld.h"
 
@@ -62,7 +62,7 @@ Expected<RawMesh> weld_facets(Facets facets) {
 }
 
 // Whether `x` is a plausible coordinate. STL exporters write neither infinite nor denormal numbers,
-// but bytes of other formats often look like them.
+// but bytes of other formats often look like such numbers.
 bool is_plausible(float x) {
   return std::abs(x) < 1e30F && std::fpclassify(x) != FP_SUBNORMAL;
 }
@@ -95,6 +95,23 @@ bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
   return std::ranges::any_of(bytes, [](std::uint8_t byte) { return byte != 0; });
 }
 
+// Whether the bytes after the header are facets, although the stated count and the file's size are
+// not credible. Demands at least four facets, which a closed surface needs. Most facets must have
+// three different corners: other data with many zeros looks like facets with equal corners.
+bool are_mostly_triangles(std::span<const std::uint8_t> file) {
+  constexpr std::size_t kFewestFacets = 4, kNormalBytes = 12, kCornerBytes = 12;
+  const std::size_t count = (file.size() - kHeaderBytes) / kFacetBytes;
+  std::size_t triangles = 0;
+  for (std::size_t f = 0; f < count; ++f) {
+    const auto corner = [&](std::size_t k) {
+      return as_text(file.subspan(kHeaderBytes + kFacetBytes * f + kNormalBytes + kCornerBytes * k,
+                                  kCornerBytes));
+    };
+    triangles += corner(0) != corner(1) && corner(1) != corner(2) && corner(2) != corner(0);
+  }
+  return count >= kFewestFacets && triangles > count / 2;
+}
+
 std::uint32_t stated_facets(std::span<const std::uint8_t> bytes) {
   return load<std::uint32_t>(&bytes[80]);
 }
@@ -114,8 +131,9 @@ bool looks_like_text(std::span<const std::uint8_t> bytes) {
 }
 
 // Returns the number of facets of a binary file, or nullopt if the file is not binary or is
-// truncated. Some programs write a wrong count, such as 0, 0xFFFFFFFF or blanks. The size of the
-// file then gives the number.
+// truncated. Some programs write a wrong count, such as 0, 0xFFFFFFFF or blanks, or one that is too
+// small. The number then follows from the file's size, even if some bytes of padding follow the
+// facets. If a credible count is too large for the file, the file counts as truncated.
 std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kMostFacets = 500'000'000;
   if (bytes.size() < kHeaderBytes) return std::nullopt;
@@ -125,11 +143,13 @@ std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
   if (stated == there && is_whole) return stated;
   if (looks_like_text(bytes)) return std::nullopt;
   const bool is_believed = stated > 0 && stated <= kMostFacets;
+  if (is_believed && stated > there) return std::nullopt;
   const std::size_t known = is_believed ? stated : 0;
-  const bool may_have_more = known < there && (is_believed || is_whole);
+  const bool may_have_more =
+      known < there && (is_believed || is_whole || are_mostly_triangles(bytes));
   if (may_have_more && are_surplus_facets(bytes.subspan(kHeaderBytes + kFacetBytes * known)))
     return there;
-  return is_believed && stated <= there ? std::optional(stated) : std::nullopt;
+  return is_believed ? std::optional(stated) : std::nullopt;
 }
 
 // Returns the colour of the whole object. Materialise Magics stores it in the header as "COLOR="
@@ -171,9 +191,12 @@ std::vector<StatedColour> colours_of_facets(std::span<const std::uint8_t> bytes,
 
 std::string report_count(std::span<const std::uint8_t> bytes, std::size_t count) {
   const std::size_t rest = bytes.size() - kHeaderBytes - kFacetBytes * count;
-  if (stated_facets(bytes) != count)
-    return counted(count, "facet") + " read by the file's size, though its header counts " +
-           std::to_string(stated_facets(bytes)) + "; compare the model with its source";
+  if (stated_facets(bytes) != count) {
+    const std::string tail = rest == 0 ? "" : ", and " + counted(rest, "byte") + " after them not";
+    return counted(count, "facet") + " read by the file's size" + tail +
+           ", though its header counts " + std::to_string(stated_facets(bytes)) +
+           "; compare the model with its source";
+  }
   if (rest < kFacetBytes) return {};
   return counted(rest, "byte") +
          " after the counted facets are no facets and not read; compare the model with its source";
@@ -224,13 +247,13 @@ class AsciiStl {
 
   std::string lower_word() { return lower_case(text_.word().substr(0, 12)); }
 
-  // Handles a statement that starts with `word`. Some programs write "end facet" in two words, or a
-  // word and a name without a blank between them.
+  // Handles a statement that starts with `word`. Some programs write "end facet" in two words. Some
+  // programs write no blank between a word and the name after it.
   bool take(std::string word) {
     if (word == "end") word += lower_word();
     if (word.starts_with(is_inside_ ? "endsolid" : "solid")) {
       is_inside_ = !is_inside_;
-      text_.next_line();
+      skip_name();
       return corners_ == 0;
     }
     if (!is_inside_) return false;
@@ -241,7 +264,22 @@ class AsciiStl {
     return word == "outerloop" || (word == "outer" && lower_word() == "loop");
   }
 
-  // Skips the word "normal" and its three numbers. They may be invalid: Visual C++ writes 1.#QNAN.
+  // Skips the rest of the line. If a facet begins on the same line, skips only what precedes it:
+  // the name of a solid or, after the end of a solid, also the start of the next one.
+  void skip_name() {
+    TextCursor facet = text_;
+    for (TextCursor next = facet;; facet = next) {
+      const std::string word = lower_case(next.word().substr(0, 6));
+      if (word.empty()) return text_.next_line();
+      TextCursor after = next;
+      if (word == "facet" && lower_case(after.word().substr(0, 7)) == "normal") break;
+    }
+    is_inside_ = true;
+    text_ = facet;
+  }
+
+  // Skips the word "normal" and its three numbers. The numbers may be invalid: Visual C++ writes
+  // 1.#QNAN.
   void skip_normal() {
     for (int i = 0; i < 4 && text_.seek_word(); ++i) {
       TextCursor next = text_;
@@ -250,7 +288,7 @@ class AsciiStl {
     }
   }
 
-  // Reads the facet's colour if the line contains one.
+  // Reads the facet's colour if the line contains a colour.
   void read_colour() {
     StatedColour colour{};
     for (float& part : colour) {

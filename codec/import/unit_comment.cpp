@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/unit_comment.h"
+// Finds the length unit that a mesh file states in its comments.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ std::string take_lower_word(std::string_view& line) {
 }
 
 // Whether another word follows on the line, rather than a punctuation mark or the line end.
-bool goes_on(std::string_view line) {
+bool continues(std::string_view line) {
   const std::size_t next = line.find_first_not_of(" \t\r");
   return next != line.npos && kBetweenWords.find(line[next]) == kBetweenWords.npos;
 }
@@ -67,7 +67,7 @@ std::optional<std::string_view> unit_after(std::string_view line) {
   for (const std::string_view filler : {"is", "are", "1"}) {
     if (word == filler) word = take_lower_word(line);
   }
-  const bool is_preposition = word == "in" && goes_on(line);
+  const bool is_preposition = word == "in" && continues(line);
   const auto unit = unit_named(word), after = unit_named(take_lower_word(line));
   return is_preposition ? after : unit;
 }

@@ -99,18 +99,18 @@ Expected<void> Connectivity::EdgeTable::check_distinct() const {
 
 Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
                                            std::span<const Triangle> faces) {
-  if (auto ok = check_faces(vertex_count, faces); !ok) return tl::unexpected(std::move(ok.error()));
+  if (auto ok = check_faces(vertex_count, faces); !ok) return tl::unexpected(ok.error());
   Connectivity mesh;
   mesh.corner_at_.resize(vertex_count, kNoCorner);
   for (const auto& [a, b, c] : faces)
     mesh.add_face(a, b, c);
 
   const EdgeTable table(vertex_count, faces);
-  if (auto ok = table.check_distinct(); !ok) return tl::unexpected(std::move(ok.error()));
+  if (auto ok = table.check_distinct(); !ok) return tl::unexpected(ok.error());
   const auto border = mesh.glue_twins(table);
   if (!border) return tl::unexpected(border.error());
-  if (auto ok = mesh.close_loops(*border); !ok) return tl::unexpected(std::move(ok.error()));
-  if (auto ok = mesh.anchor_fans(); !ok) return tl::unexpected(std::move(ok.error()));
+  if (auto ok = mesh.close_loops(*border); !ok) return tl::unexpected(ok.error());
+  if (auto ok = mesh.anchor_fans(); !ok) return tl::unexpected(ok.error());
   return mesh;
 }
 
@@ -216,7 +216,8 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
   corner_at_.push_back(at_i);
   for (std::uint32_t k = i; k != j; k = k + 1 == n ? 0 : k + 1)
     set_vertex(corners[k], w);
-  // The swings below have the values that glue() would set for the five pairs of opposite corners.
+  // The `swing` values below are those that glue() would set for the five pairs of opposite
+  // corners.
   const Corner a = static_cast<Corner>(step_.size()), b = a + 3;
   step_.push_back({.to = qi, .swing = b});
   step_.push_back({.to = w, .swing = prev(before_i)});

@@ -112,9 +112,9 @@ class Connectivity {
     step_[prev(b)].swing = next(a);
   }
   struct EdgeTable;
-  // First step of close(): for each inner edge, records that the corners opposite to it in its two
-  // faces are opposite to each other. The result has one entry per vertex. If a border edge leaves
-  // the vertex, the entry is the corner opposite to that edge; otherwise it is kNoCorner.
+  // First step of close(): pairs the two corners that lie opposite to each inner edge, one in each
+  // of its two faces. The result has one entry per vertex: the corner opposite to the border edge
+  // that leaves the vertex, or kNoCorner if no border edge leaves it.
   Expected<std::vector<Corner>> glue_twins(const EdgeTable& table);
   // Second step of close(): closes each boundary loop with faces that meet at a new virtual vertex.
   Expected<void> close_loops(std::span<const Corner> border);

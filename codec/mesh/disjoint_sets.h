@@ -15,13 +15,13 @@ class DisjointSets {
       parent_[i] = i;
   }
 
-  // Returns the smallest number of the set.
+  // Returns the smallest number in the set that contains i.
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i)
       i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // Joins the sets of a and b. Returns false if both already were the same set.
+  // Joins the sets of a and b. Returns false if a and b already were in the same set.
   bool join(std::uint32_t a, std::uint32_t b) {
     a = find(a), b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);

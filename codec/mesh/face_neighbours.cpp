@@ -36,8 +36,8 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
                                                           std::size_t vertex_count) {
   const std::vector<std::uint32_t> start = bucket_starts(faces, vertex_count);
   std::vector<std::uint32_t> size(vertex_count, 0);
-  // The list of a vertex holds the half-edges whose smaller vertex it is and whose opposite
-  // half-edges have not been found yet.
+  // Holds one list of half-edges per vertex v. v is the smaller vertex of these half-edges, and
+  // their opposite half-edges have not been found yet.
   std::vector<std::uint32_t> waiting(3 * faces.size());
   std::vector<std::array<std::uint32_t, 3>> across(faces.size());
   for (std::uint32_t h = 0; h < 3 * faces.size(); ++h) {

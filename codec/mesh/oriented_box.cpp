@@ -7,8 +7,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Bounds of relative rounding errors: of a coordinate along an axis, relative to the largest
-// coordinate of the point, and of a squared distance.
+// Bounds of rounding errors. kRounding: error of a coordinate along an axis, relative to the
+// largest coordinate of the point. kSquaredRounding: relative error of a squared distance.
 constexpr double kRounding = 1e-12, kSquaredRounding = 1e-9;
 
 Vec3 unit(const Vec3& v) {
@@ -22,8 +22,8 @@ Vec3 most_perpendicular(const Vec3& v) {
   return y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
 }
 
-// Returns the unit vector perpendicular to the unit vector `u` in the plane of `u` and `v`. Two
-// steps suffice even if both are nearly parallel.
+// Returns the unit vector perpendicular to the unit vector `u` in the plane of `u` and `v`.
+// Orthogonalises twice, because one step is inaccurate if `u` and `v` are nearly parallel.
 Vec3 perpendicular(const Vec3& u, Vec3 v) {
   constexpr double kParallel = 1e-6;
   v = v - u * dot(u, v);

@@ -15,8 +15,8 @@ class OrientedBox {
  public:
   OrientedBox() = default;
   // Creates an empty box. Its axes are the triangle's longest edge, the direction perpendicular to
-  // it in the triangle's plane, and the normal. If the triangle has no area, chooses arbitrary
-  // directions for the axes that it does not determine.
+  // this edge in the triangle's plane, and the normal. If the triangle has no area, chooses
+  // arbitrary directions for the axes that it does not determine.
   explicit OrientedBox(const TrianglePoints& triangle);
 
   // Extends the box to contain p.

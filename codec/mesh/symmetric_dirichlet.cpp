@@ -17,7 +17,8 @@ double energy_of(const Vec2& u, double scale, std::span<const EnergyTriangle> st
   return sum;
 }
 
-// Returns the Newton step. If the energy is not convex there, returns a step down the gradient.
+// Returns the Newton step for these derivatives. If they show that the energy is not convex,
+// returns a step down the gradient.
 Vec2 newton_step(const EnergyTriangle::Derivatives& d) {
   const double det = d.xx * d.yy - d.xy * d.xy;
   if (d.xx > 0 && det > 1e-3 * d.xx * d.yy) {

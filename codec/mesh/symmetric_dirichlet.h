@@ -3,7 +3,7 @@
 // function of that point. The energy is least if all triangles keep their shape and have the same
 // scale as their neighbourhood. It is infinite if a triangle is flipped.
 //
-// The decoder uses it, so every machine must compute the same bits (exact_math.h).
+// The decoder uses this energy, so every machine must compute the same bits (exact_math.h).
 #pragma once
 
 #include <span>

@@ -94,8 +94,8 @@ void for_each_map(const Material& material, Visit visit) {
 // Maximum number of sets of texture coordinates per mesh.
 inline constexpr std::size_t kCoordinateSets = 2;
 
-// The texturing of a mesh. It is empty if the mesh has no materials. Otherwise every face has a
-// material.
+// The texturing of a mesh. The texturing is empty if the mesh has no materials. Otherwise every
+// face has a material.
 struct Texturing {
   std::vector<Material> materials;
   std::vector<EncodedPicture> pictures;

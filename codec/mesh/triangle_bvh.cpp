@@ -122,7 +122,7 @@ void TriangleBvh::add_faces(const TriangleMesh& mesh) {
 // Fills `node` for the triangles [first, first + count). Builds the children first, because their
 // boxes give the node's box.
 void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-  if (count <= kLeafSize) {
+  if (count <= kLeafSize || has_copies_only(first, count)) {
     own_nodes_[node].first = first, own_nodes_[node].count = count;
     bound_box(own_nodes_[node], first, count);
     return;
@@ -152,6 +152,18 @@ void TriangleBvh::bound_children(Node& node) const {
   }
 }
 
+// Whether all triangles [first, first + count) have the same three corners, in any order.
+bool TriangleBvh::has_copies_only(std::uint32_t first, std::uint32_t count) const {
+  const auto corners = [&](std::uint32_t t) {
+    return std::array{point(t, 0), point(t, 1), point(t, 2)};
+  };
+  const std::array<Vec3, 3> common = corners(first);
+  for (std::uint32_t t = first + 1; t < first + count; ++t) {
+    if (!std::ranges::is_permutation(corners(t), common)) return false;
+  }
+  return true;
+}
+
 void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count) const {
   Vec3 low = positions_[faces_[first][0]], high = low;
   for (std::uint32_t i = first; i < first + count; ++i) {
@@ -166,8 +178,9 @@ void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count
 }
 
 // Whether the leaves' boxes together have more than kMany times the surface area of the root's box.
-// The ratio is the mean number of leaves that a line through the root's box meets. It is small for
-// most surfaces. For a fan of long triangles, it grows with their number.
+// The ratio is the mean number of leaves that a line through the root's box meets. The ratio is
+// small for most surfaces. For a fan of long triangles, the ratio grows with the number of
+// triangles.
 bool TriangleBvh::has_overlapping_leaves() const {
   constexpr double kMany = 64;
   double sum = 0;
@@ -191,7 +204,7 @@ void TriangleBvh::orient(std::uint32_t node, std::uint32_t first, std::uint32_t 
 }
 
 // Returns a lower bound of the squared distance from p to the node's triangles. Skips the costly
-// oriented box if the first bound is at least `enough`.
+// oriented box if the bound from the box along the coordinate axes is at least `enough`.
 double TriangleBvh::squared_to_box(std::uint32_t node, const Vec3& p, double enough) const {
   const double squared = squared_distance(nodes_[node], p, slack_);
   if (oriented_.empty() || squared >= enough) return squared;
@@ -217,7 +230,8 @@ ClosestTriangle TriangleBvh::closest(const Vec3& p, ClosestTriangle best, double
     }
     ++best.visited;
     const Node& node = nodes_[top.node];
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    const std::uint32_t distinct = node.count > kLeafSize ? 1 : node.count;
+    for (std::uint32_t i = node.first; i < node.first + distinct; ++i) {
       const double squared = squared_distance(triangle(i), p);
       if (squared < best.squared) best.squared = squared, best.triangle = i;
     }

@@ -35,6 +35,8 @@ class TriangleBvh {
     std::uint32_t first;
     std::uint32_t count;  // number of triangles in a leaf; 0 in an inner node
   };
+  // A leaf with more than kLeafSize triangles holds copies of one triangle. Queries look at the
+  // first copy only.
   static constexpr std::uint32_t kLeafSize = 4;
 
   // Builds the hierarchy. Face indices must be in range, and positions must be finite.
@@ -43,7 +45,8 @@ class TriangleBvh {
   TriangleBvh& operator=(TriangleBvh&&) = default;
   // Creates a hierarchy of the same faces with moved vertices. `moved` holds the new positions in
   // the order of shape.positions(). All other data stays in `shape`, which must outlive this object
-  // and must have been built from a mesh. Queries stay fast if the vertices moved only slightly.
+  // and must have been built from a mesh. Vertices at the same position must move to the same
+  // position. Queries stay fast if the vertices moved only slightly.
   TriangleBvh(const TriangleBvh& shape, std::vector<Vec3> moved);
 
   bool empty() const { return faces_.empty(); }
@@ -64,19 +67,22 @@ class TriangleBvh {
   std::span<const std::uint32_t> vertices() const { return vertices_; }
 
   // Whether the boxes of many triangles overlap, as in a fan of long triangles. Each node then also
-  // has an oriented box. Without these, most queries would visit a large share of all nodes.
+  // has an oriented box. Without oriented boxes, most queries would visit a large share of all
+  // nodes.
   bool is_slender() const { return !oriented_.empty(); }
 
   // Returns the closest triangle, or `bound` if no triangle is closer. A good bound, such as the
-  // distance to a nearby triangle, makes the query several times faster. After kExactNodes nodes, a
-  // query ignores triangles that are closer than the best one by less than the factor 1 +
-  // `precision`, because many triangles may be about equally close.
+  // distance to a nearby triangle, makes the query several times faster. If many triangles are
+  // about equally close, an exact query visits most nodes. After kExactNodes nodes, a query
+  // therefore ignores triangles that are closer than the best one by less than the factor 1 +
+  // `precision`.
   static constexpr std::uint32_t kExactNodes = 256;
   ClosestTriangle closest(const Vec3& p, ClosestTriangle bound = {}, double precision = 0) const;
 
  private:
   void add_faces(const TriangleMesh& mesh);
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  bool has_copies_only(std::uint32_t first, std::uint32_t count) const;
   void bound_box(Node& node, std::uint32_t first, std::uint32_t count) const;
   void bound_children(Node& node) const;
   bool has_overlapping_leaves() const;

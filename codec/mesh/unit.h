@@ -24,4 +24,22 @@ constexpr std::optional<double> metres_per(std::string_view unit) {
   return std::nullopt;
 }
 
+// A unit of kLengthUnits, and the factor that converts the file's coordinates to it.
+struct StatedLength {
+  std::string_view unit;
+  double scale;
+};
+
+// Returns the unit of kLengthUnits that is `metres` long, with the factor 1. If there is none,
+// returns "m" with the factor `metres`. Replaces an impossible length by `usual`.
+constexpr StatedLength stated_length(double metres, double usual) {
+  constexpr double kTolerance = 1e-4;
+  if (!(metres > 0 && metres < 1e9)) metres = usual;
+  for (const LengthUnit& known : kLengthUnits) {
+    const double ratio = metres / known.metres;
+    if (ratio > 1 - kTolerance && ratio < 1 + kTolerance) return {known.name, 1};
+  }
+  return {"m", metres};
+}
+
 }  // namespace vitrine::inline codec

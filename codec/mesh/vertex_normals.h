@@ -11,8 +11,8 @@ namespace vitrine::inline codec {
 // Returns the normal of each vertex. Normals are not unit vectors and may be 0.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 
-// Like vertex_normals(), but returns unit vectors, as the viewer shades the mesh. A vertex whose
-// normal would be 0 gets (0, 0, 1).
+// Like vertex_normals(), but returns unit vectors. The viewer shades meshes in the same way. A
+// vertex whose normal would be 0 gets (0, 0, 1).
 std::vector<Vec3> unit_normals(const TriangleMesh& mesh);
 
 // Like vertex_normals(), but the normal of a vertex includes the faces of all other vertices at the

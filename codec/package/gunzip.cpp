@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kBlock = 1 << 16;
 
-// Passes the next part of the input to the decompressor. It takes at most 4 GB at once.
+// Passes the next part of the input to the decompressor. zlib takes at most 4 GB at once.
 void give_input(z_stream& stream, std::span<const std::uint8_t>& bytes) {
   if (stream.avail_in > 0) return;
   const auto count = std::min<std::size_t>(bytes.size(), std::numeric_limits<uInt>::max());

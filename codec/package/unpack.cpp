@@ -17,7 +17,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using Archive = std::unique_ptr<archive, decltype(&archive_read_free)>;
 
-constexpr int kDeepest = 3;  // how many packages may be nested
+constexpr int kDeepest = 3;  // maximum depth of nested packages
 
 std::string_view text_in(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -27,9 +27,25 @@ bool is_zip(std::span<const std::uint8_t> bytes) {
   return text_in(bytes).starts_with("PK\3\4");
 }
 
+// Whether the bytes start with the header of a Unix V7 tar file. The header has no signature, but a
+// name and the sum of its bytes in octal digits. The sum counts its own field as blanks.
+bool is_old_tar(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kHeader = 512, kSum = 148, kDigits = 6, kField = 8;
+  if (bytes.size() < kHeader || bytes[0] == 0) return false;
+  unsigned sum = kField * ' ', stated = 0;
+  for (std::size_t i = 0; i < kHeader; ++i)
+    sum += i < kSum || i >= kSum + kField ? bytes[i] : 0;
+  for (const char c : text_in(bytes.subspan(kSum, kDigits))) {
+    if (c != ' ' && (c < '0' || c > '7')) return false;
+    stated = c == ' ' ? stated : stated * 8 + static_cast<unsigned>(c - '0');
+  }
+  return stated == sum;
+}
+
 bool is_tar(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kSignature = 257;
-  return bytes.size() > kSignature && text_in(bytes.subspan(kSignature)).starts_with("ustar");
+  return (bytes.size() > kSignature && text_in(bytes.subspan(kSignature)).starts_with("ustar")) ||
+         is_old_tar(bytes);
 }
 
 std::string printable(std::string_view text) {
@@ -73,7 +89,7 @@ bool is_plain_file(archive_entry* entry) {
          archive_entry_symlink(entry) == nullptr;
 }
 
-// Checks everything that the head of an entry states.
+// Checks the header of an entry: the path, the encryption and the compression method.
 Expected<void> check_head(archive* handle, archive_entry* entry, const std::string& path) {
   if (path.empty())
     return refused(ErrorCode::kBadInput, "has a file without a readable name; pack it again");
@@ -130,7 +146,7 @@ class Unpacker {
     for (;;) {
       const int found = archive_read_next_header(handle.get(), &entry);
       if (found == ARCHIVE_EOF) return {};
-      // ARCHIVE_WARN: for example an unknown character in the name
+      // ARCHIVE_WARN means a minor fault, such as an unknown character in the name.
       if (found != ARCHIVE_OK && found != ARCHIVE_WARN) return damaged(handle.get());
       if (auto ok = unpack_entry(handle.get(), entry, prefix, depth); !ok) return ok;
     }
@@ -171,7 +187,7 @@ class Unpacker {
   // Adds a whole file, or the files in it if it is a package.
   Expected<void> add(PackedFile file, int depth) {
     if (is_package(file.bytes) && depth + 1 < kDeepest) {
-      // counts only the files inside the package, not the package itself
+      // counts the files inside the package instead of the package itself
       left_ += file.bytes.size();
       return unpack(file.bytes, file.path, depth + 1);
     }

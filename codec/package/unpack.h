@@ -33,8 +33,8 @@ struct PackedFile {
 bool is_package(std::span<const std::uint8_t> bytes);
 
 // Returns the files of a package in their order, without folders and links. Cuts the files for
-// which `keeps_whole(path)` is false after kHeadBytes. Among the whole files, packages are replaced
-// by their own files, up to three levels deep. A file compressed by gzip has the path of its
+// which `keeps_whole(path)` is false after kHeadBytes. A whole file that is a package is replaced
+// by the files in it, up to three levels deep. A file compressed by gzip has the path of its
 // package without ".gz", or an empty path if it is the whole package. Verifies the checksums of zip
 // and gzip.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes PNG, JPEG and WebP pictures.
+// Decodes PNG, JPEG, WebP, TIFF, BMP and TGA pictures.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,12 @@
 
 namespace vitrine::inline codec {
 
-// Fails (kUnsupported) unless the bytes begin like a PNG, JPEG or WebP file.
+// Fails (kUnsupported) unless the bytes begin like a file of one of these formats.
 Expected<void> check_picture_format(std::span<const std::uint8_t> bytes);
+
+// Whether the bytes begin like a PNG, JPEG or WebP file. A .pmesh file keeps the bytes of such
+// pictures.
+bool is_carried_format(std::span<const std::uint8_t> bytes);
 
 // Whether the bytes begin like a WebP file.
 bool is_webp(std::span<const std::uint8_t> bytes);

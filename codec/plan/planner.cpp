@@ -25,7 +25,7 @@ void Planner::have(std::size_t chunk) {
   bytes_ += info.length;
   // The exact number of faces is unknown: a split adds two faces, or one at a boundary, and a
   // component insertion adds any number. The estimate uses the level's average number of faces per
-  // new vertex. It is exact once all chunks of the level are held.
+  // new vertex. The estimate is exact once all chunks of the level are present.
   const double added = static_cast<double>(info.splits) + info.inserted;
   faces_ += added * faces_per_vertex(info.level);
 }

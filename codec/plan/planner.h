@@ -13,8 +13,8 @@
 
 namespace vitrine::inline codec {
 
-// Asks for the finest state with at most this many triangles. The last chunk may exceed the number;
-// it is fetched completely and applied in part (Refiner::undo_to_faces).
+// Asks for the finest state with at most this many triangles. The last chunk may exceed the number:
+// it is fetched completely, and the surplus triangles are then undone (Refiner::undo_to_faces).
 struct WantTriangles {
   std::uint64_t triangles;
 };
@@ -43,7 +43,7 @@ class Planner {
   void have(std::size_t chunk);  // records a chunk as applied or requested
 
   // Returns the next chunk to fetch, or nullopt if the detail target is reached. All chunks that
-  // must be applied before this one (see Refiner) were passed to have() earlier.
+  // must be applied before the returned chunk (see Refiner) have already been passed to have().
   std::optional<std::size_t> next() const;
 
   // Returns the total size in bytes of the header, the base mesh and the chunks passed to have().

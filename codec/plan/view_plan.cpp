@@ -6,9 +6,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Smallest gain of a chunk, as a share of the coarser level's error in pixels. It keeps the gain
-// positive if a level's error bound equals that of the coarser level. With a gain of 0, such a
-// level would block all finer levels.
+// Smallest gain of a chunk, as a share of the coarser level's error in pixels. This minimum keeps
+// the gain positive if a level's error bound equals that of the coarser level. With a gain of 0,
+// such a level would block all finer levels.
 constexpr double kLeastGain = 0.01;
 
 }  // namespace
@@ -68,8 +68,8 @@ void ViewPlan::require(std::size_t index, std::vector<std::size_t>& missing) {
   missing.push_back(index);
 }
 
-// Returns the first missing chunk of the file, or nullopt if it is longer than `bytes`. Chunks are
-// in order of levels, so the first missing chunk can always be applied.
+// Returns the first missing chunk of the file, or nullopt if this chunk is longer than `bytes`.
+// Chunks are in order of levels, so the first missing chunk can always be applied.
 std::optional<std::size_t> ViewPlan::first_missing(double bytes) const {
   const auto at =
       static_cast<std::size_t>(std::find(have_.begin(), have_.end(), 0) - have_.begin());

@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 class ViewPlan {
  public:
-  // The arguments must outlive this object. `have` has one entry per chunk. A chunk in it counts
-  // only if all coarser chunks of its region are there, too.
+  // The arguments must outlive this object. `have` states for each chunk whether it is present. A
+  // present chunk counts only if all coarser chunks of its region are present, too.
   ViewPlan(const Manifest& manifest, const std::vector<std::uint8_t>& have, const View& view);
 
   // Returns the chunk to fetch next. Returns nullopt if no visible error exceeds the view's limit,

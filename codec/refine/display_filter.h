@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display filter of coarse levels. It displays p at p' = p + a n (n . (p - mean of the ring)),
-// where n is the vertex normal. The filter undoes the shrinkage of midpoint placement. It needs
-// only one coded number per level, `a`.
+// The display filter of coarse levels. It displays the point p at p' = p + a n (n . (p - m)). n is
+// the vertex normal, and m is the mean position of the adjacent vertices. The filter undoes the
+// shrinkage of midpoint placement. It needs only one coded number per level, `a`.
 #pragma once
 
 #include "codec/coding/mesh_state.h"

@@ -127,7 +127,7 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
   s.is_usable = false;
   s.newest = {};
   auto change = decode_layer(s.mesh, s.frame(info), s.manifest->tree, info.node, bytes);
-  if (!change) return tl::unexpected(std::move(change.error()));
+  if (!change) return tl::unexpected(change.error());
   if (s.mesh.connectivity.loop_count() > s.manifest->loops) {
     return fail(ErrorCode::kBadInput,
                 "a chunk brings more boundary loops than the header says; fetch the file again");

@@ -14,10 +14,10 @@ ViewAxes::ViewAxes(const Vec3& toward)
       right_(unit_vector(cross({0, 1, 0}, toward_))),
       up_(cross(toward_, right_)) {}
 
-Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest) {
+Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest, const Vec3& toward) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kMargin = 0.03;
-  const ViewAxes axes(Framing{}.toward);
+  const ViewAxes axes(toward);
   Vec3 low{kInfinity, kInfinity, kInfinity}, high = low * -1;
   for (const Vec3& position : mesh.positions) {
     const Vec3 p = axes.to_view(position);
@@ -33,7 +33,8 @@ Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest) {
   return {.centre = axes.to_model((low + high) * 0.5),
           .pixel = longer * (1 + 2 * kMargin) / longest,
           .width = pixels(size.x),
-          .height = pixels(size.y)};
+          .height = pixels(size.y),
+          .toward = toward};
 }
 
 }  // namespace vitrine::inline codec

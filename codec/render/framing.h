@@ -31,8 +31,9 @@ class ViewAxes {
   Vec3 toward_, right_, up_;
 };
 
-// Returns a framing that shows all of `mesh` from the default direction, with a narrow margin. The
+// Returns a framing that shows all of `mesh` from the direction `toward`, with a narrow margin. The
 // longer side of the picture has `longest` pixels, the other side at least half as many.
-Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest);
+Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest,
+                     const Vec3& toward = Framing{}.toward);
 
 }  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light of all pictures: one lamp at the upper left behind the viewer, and ambient light from
-// sky and floor. It is the same as in the initial view of the viewer page.
+// sky and floor. The light is the same as in the initial view of the viewer page.
 #pragma once
 
 #include "codec/render/framing.h"

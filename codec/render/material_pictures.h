@@ -17,8 +17,8 @@ inline constexpr std::array<MapOfMaterial, 2> kShownMaps = {&Material::base_colo
                                                             &Material::normal_map};
 
 // Returns the pictures of `texturing` in the same order, as the constructor of Textures requires
-// them. Decodes only the pictures that one of `maps` uses in some material; the others have no
-// pixels. Call this in the sandbox if the bytes are untrusted.
+// them. Decodes only the pictures that one of `maps` uses in some material; all other pictures have
+// no pixels. Call this in the sandbox if the bytes are untrusted.
 //
 // Fails as decode_picture() does, with the picture's name, and (kLimit) if the decoded pictures
 // have more than `most_pixels` pixels together.

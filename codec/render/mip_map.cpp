@@ -22,8 +22,8 @@ const ByteValues& values_of_bytes(PictureCoding coding) {
   return coding == PictureCoding::kSrgb ? srgb : plain;
 }
 
-// Returns the sRGB byte of a linear value in [0, 1]. The table has 2^16 entries, so that the error
-// is at most 0.03 before rounding.
+// Returns the sRGB byte of a linear value in [0, 1]. The table has 2^16 entries, so that the byte
+// value before rounding is off by at most 0.03.
 std::uint8_t srgb_byte(float value) {
   static const auto table = [] {
     std::vector<std::uint8_t> bytes(65536);

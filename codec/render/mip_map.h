@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture at decreasing resolutions. Distant textures are then drawn without aliasing
+// A picture at decreasing resolutions, with which distant textures are drawn without aliasing
 // [Williams83].
 #pragma once
 
@@ -45,7 +45,7 @@ class MipMap {
 
   const ByteValues* colours_;           // maps bytes of red, green and blue to values
   std::vector<Picture> smaller_;        // levels 1 and higher
-  std::vector<const Picture*> levels_;  // all levels
+  std::vector<const Picture*> levels_;  // pointers to all levels
 };
 
 }  // namespace vitrine::inline codec

@@ -34,7 +34,7 @@ Picture render(const ShadedMesh& model, const Framing& frame) {
   const ProjectedMesh projected(model, frame, axes);
   Canvas canvas(frame.width, frame.height);
   draw(canvas, model, projected);
-  // Shader of the last face, because neighbouring samples often lie on the same face.
+  // Keeps the shader of the last face, because neighbouring samples often lie on the same face.
   std::optional<FaceShader> shader;
   std::uint32_t latest = 0;
   return canvas.develop([&](std::uint32_t face, SamplePosition at) {

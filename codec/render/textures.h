@@ -15,8 +15,8 @@ namespace vitrine::inline codec {
 // the position in the face. The mip map level is therefore the same everywhere on the face.
 class FaceTexture {
  public:
-  // `map` says how the face uses `mip_map`. `corners` are the face's texture coordinates. Both
-  // references must outlive this object.
+  // `map` says how the face uses `mip_map`. `corners` are the face's texture coordinates. `mip_map`
+  // and `map` must outlive this object.
   FaceTexture(const MipMap& mip_map, const TextureMap& map,
               const std::array<TextureCoordinates, 3>& corners, const ScreenTriangle& triangle);
 

@@ -39,7 +39,7 @@ class CornerTree {
  private:
   static constexpr std::uint32_t kLeafSize = 8, kNoRank = 0xFFFF'FFFFu;
 
-  // A node has the children 2 i + 1 and 2 i + 2, unless its range has at most kLeafSize corners.
+  // Node i has the children 2 i + 1 and 2 i + 2, unless its range has at most kLeafSize corners.
   struct Node {
     double low_u = 0, low_v = 0, high_u = 0, high_v = 0;
     std::uint32_t left = 0;  // number of corners that have not been removed

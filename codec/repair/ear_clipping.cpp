@@ -34,8 +34,8 @@ bool is_convex_at(std::span<const FlatCorner> polygon, const CornerRing& ring,
          0;
 }
 
-// Returns the corners that are not convex. If any corner of the ring lies in the triangle of three
-// others, then a corner that is not convex does.
+// Returns the corners that are not convex. Only these need a test: if the triangle of three corners
+// contains any other corner, it also contains one that is not convex.
 std::vector<std::uint32_t> corners_not_convex(std::span<const FlatCorner> polygon,
                                               const CornerRing& ring) {
   std::vector<std::uint32_t> corners;

@@ -16,12 +16,12 @@ namespace vitrine::inline codec {
 // are indices into `polygon`. Returns the number of steps: the tests of corners, and the nodes of
 // the CornerTree that they visit.
 //
-// Clips ears in passes. A pass skips the neighbours of ears that it has clipped, so a convex
-// polygon loses half of its corners in each pass, and no vertex gets many triangles.
+// Clips ears in passes. A pass skips the neighbours of the ears that it has clipped. A convex
+// polygon therefore loses half of its corners in each pass, and no vertex gets many triangles.
 //
-// Takes about n log n steps, and never more than about 64 n log n: after that many steps, each
-// convex corner counts as an ear. If a polygon that intersects itself runs out of ears, any corner
-// is clipped.
+// Takes about n log n steps, and at most about 64 n log n steps. After that many steps, each convex
+// corner counts as an ear. If a polygon that intersects itself runs out of ears, any corner is
+// clipped.
 std::uint64_t clip_ears(std::span<const FlatCorner> polygon, std::vector<Triangle>& triangles);
 
 }  // namespace vitrine::inline codec

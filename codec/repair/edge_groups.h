@@ -40,8 +40,8 @@ class EdgeGroups {
   std::vector<EdgeSide> sides_;
 };
 
-// Whether the face runs from the smaller to the larger vertex of the edge that is opposite to
-// `corner`.
+// Whether the face of `corner` traverses the edge opposite to `corner` from the edge's smaller
+// vertex to its larger vertex.
 inline bool runs_upwards(std::span<const Triangle> faces, std::uint32_t corner) {
   const Triangle& face = faces[corner / 3];
   const std::uint32_t k = corner % 3;

@@ -37,10 +37,11 @@ void pair(std::vector<std::uint32_t>& across, std::uint32_t a, std::uint32_t b) 
   across[b] = a;
 }
 
-// Pairs the faces around an edge like brackets. The solid lies clockwise of a face that runs
-// upwards. Each upward face therefore opens a bracket, and the next downward face in clockwise
-// order closes it. The loop goes around twice, because a bracket may extend past the last face. At
-// equal angles, downward faces come first, so that the two sides of a thin sheet are not paired.
+// Pairs the faces around an edge like brackets. A face runs upwards if it traverses the edge from
+// the smaller to the larger vertex. The solid lies clockwise of such a face. Each upward face
+// therefore opens a bracket, and the next downward face in clockwise order closes it. The loop goes
+// around twice, because a bracket may extend past the last face. At equal angles, downward faces
+// come first, so that the two sides of a thin sheet are not paired.
 void pair_fan(std::vector<Leaf> leaves, std::vector<std::uint32_t>& across) {
   std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
     if (a.angle != b.angle) return a.angle > b.angle;

@@ -44,7 +44,8 @@ class FaceList {
   std::vector<std::uint16_t> take_materials();
 
  private:
-  // A run of faces with the same material. The run starts at this triangle and this polygon.
+  // A run of faces with the same material. `triangle` and `polygon` are the indices of the first
+  // triangle and the first polygon in the run.
   struct MaterialRun {
     std::size_t triangle, polygon;
     std::uint16_t material;
@@ -60,7 +61,7 @@ class FaceList {
   std::vector<TextureCoordinates> polygon_coordinates_;
   std::vector<std::size_t> polygon_ends_;  // per polygon: end index in polygon_corners_
   std::vector<MaterialRun> runs_;          // in ascending order; empty if all materials are 0
-  std::vector<std::uint16_t> materials_;   // per triangle; empty if all are 0
+  std::vector<std::uint16_t> materials_;   // material per triangle; empty if all are 0
 };
 
 }  // namespace vitrine::inline codec

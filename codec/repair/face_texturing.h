@@ -16,7 +16,8 @@ namespace vitrine::inline codec {
 std::vector<std::array<TextureCoordinates, 3>> coordinates_of_corners(
     std::span<const Triangle> faces, std::span<const TextureCoordinates> of_vertices);
 
-// Gives each set of texture coordinates that a map uses one entry per face. Removes all other sets.
+// Removes the sets of texture coordinates that no map uses. Resizes every other set to one entry
+// per face.
 void fit_coordinate_sets(Texturing& texturing);
 
 // Replaces coordinates that are not finite by 0. Returns the number of corners that had such a

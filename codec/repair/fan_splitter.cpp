@@ -81,8 +81,8 @@ class SharedFans {
       const VertexHandle owner = first || !has_several_fans_[origin] ? v : kernel_.new_vertex();
       if (owner != v) origins.push_back(origin), global_.push_back(next_copy_++);
       kernel_.set_halfedge_handle(owner, start);
-      // A vertex may have several fans here but only one in the whole mesh, if the fans reach the
-      // rim of this part. Such a vertex is not split.
+      // At the rim of this part of the mesh, a vertex may have several fans in the part but only
+      // one fan in the whole mesh. Such a vertex is not split.
       for (const HalfedgeHandle out : kernel_.voh_range(owner)) {
         seen[out.idx()] = true;
         kernel_.set_vertex_handle(kernel_.opposite_halfedge_handle(out), owner);
@@ -124,8 +124,8 @@ class SharedFans {
     members_.push_back(f);
   }
 
-  // Returns the half-edge opposite to corner k of face f. It is the twin of the partner's half-edge
-  // if that exists; otherwise it belongs to a new edge.
+  // Returns the half-edge opposite to corner k of face f. If the half-edge of the partner corner
+  // exists, returns its twin. Otherwise adds a new edge.
   HalfedgeHandle half_edge(std::uint32_t f, std::uint32_t k) {
     const std::uint32_t partner = across_[3 * f + k];
     if (partner != kNoPartner && partner < 3 * f) {

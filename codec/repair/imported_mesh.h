@@ -16,7 +16,7 @@ struct ImportedMesh {
   TriangleMesh mesh;                 // positions in model units
   std::string unit;                  // a name in kLengthUnits, or empty if unknown
   std::vector<std::string> repairs;  // one line for each kind of change made by the reader
-  Texturing texturing;  // texturing of `mesh`; its pictures also determine the vertex colours
+  Texturing texturing;  // texturing of `mesh`; vertex colours may come from its pictures
 };
 
 }  // namespace vitrine::inline codec

@@ -14,7 +14,8 @@ bool agree(std::span<const Triangle> faces, std::uint32_t a, std::uint32_t b) {
 }
 
 // Returns, for each corner, the corner across the opposite edge, or kNoPartner. Only edges with
-// exactly two faces count. The two faces may have any orientation but must have different apexes.
+// exactly two faces count. The two faces may have any orientation but must have different third
+// vertices.
 std::vector<std::uint32_t> neighbours(std::span<const Triangle> faces, const EdgeGroups& groups) {
   std::vector<std::uint32_t> across(3 * faces.size(), kNoPartner);
   groups.for_each([&](std::uint32_t, std::span<const EdgeSide> sides) {
@@ -35,8 +36,8 @@ bool all_agree(std::span<const Triangle> faces, const EdgeGroups& groups) {
 
 enum : std::uint8_t { kKeep, kReverse, kUnknown };
 
-// Visits the patch of the face patch[0] breadth-first. Appends each face reached to `patch`. Sets
-// the face's `turn` such that its final orientation agrees with that of patch[0].
+// Finds the patch that contains the face patch[0], breadth-first. Appends each face reached to
+// `patch`. Sets the face's `turn` so that the face gets the same final orientation as patch[0].
 void spread(std::span<const Triangle> faces, std::span<const std::uint32_t> across,
             std::vector<std::uint8_t>& turn, std::vector<std::uint32_t>& patch) {
   for (std::size_t i = 0; i < patch.size(); ++i) {

@@ -14,7 +14,7 @@ namespace vitrine::inline codec {
 // Gives all faces of each patch the orientation of the patch's majority. A patch consists of faces
 // connected by edges with exactly two faces. Patches whose faces already agree do not change.
 // `groups` holds the edges of `faces` and is not updated. Returns the reversed faces in ascending
-// order. Their second and third corner were swapped.
+// order. The second and third corners of these faces were swapped.
 std::vector<std::uint32_t> orient_patches(std::span<Triangle> faces, const EdgeGroups& groups);
 
 }  // namespace vitrine::inline codec

@@ -22,13 +22,6 @@ std::string counted(std::uint64_t count, std::string_view noun) {
   return std::to_string(count) + ' ' + std::string(noun) + (count == 1 ? "" : "s");
 }
 
-std::string in_quotes(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text.substr(0, 60))
-    out += c >= ' ' && c <= '~' ? c : '?';
-  return out + '\'';
-}
-
 bool is_usable(const Vec3& p) {
   return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate &&
          std::abs(p.z) <= kLargestCoordinate;
@@ -136,7 +129,7 @@ Expected<void> RawMesh::drop_stray_positions() {
   }
   const std::size_t dropped = keep_vertices(usable, positions, attributes, faces_.triangles);
   repairs.push_back(counted(dropped, "point") +
-                    " without finite coordinates dropped, no face uses them");
+                    " without finite coordinates dropped; no face uses them");
   return {};
 }
 
@@ -158,7 +151,8 @@ void RawMesh::close_seams() {
   repairs.push_back(
       std::to_string(welded) +
       (welded == 1 ? " repeated vertex welded" : " repeated vertices welded") +
-      (has_seams ? ", parted by normals, textures or missing indices" : " along matching borders"));
+      (has_seams ? ", parted by normals, textures or missing indices" : " along matching borders") +
+      "; no step is needed");
 }
 
 Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
@@ -175,7 +169,11 @@ Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
   if (small_faces_ > 0) {
     repairs.push_back(counted(small_faces_, "face") +
                       " with fewer than three corners dropped, first at face " +
-                      std::to_string(first_small_face_));
+                      std::to_string(first_small_face_) + "; convert what you need to polygons");
+  }
+  if (translucent_colours > 0) {
+    repairs.push_back("opacity of " + counted(translucent_colours, "colour") +
+                      " not carried: vertex colours are opaque; use a material with a texture map");
   }
   return ImportedMesh{.mesh = {.positions = std::move(positions),
                                .faces = std::move(faces_.triangles),

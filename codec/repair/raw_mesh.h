@@ -10,6 +10,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
+#include "codec/core/printable.h"
 #include "codec/core/vec.h"
 #include "codec/mesh/texturing.h"
 #include "codec/repair/face_list.h"
@@ -31,6 +32,8 @@ class RawMesh {
   // Whether the colours were sampled from pictures or materials. If true, vertices are merged even
   // if their colours differ, and their colours are averaged.
   bool is_baked = false;
+  // Number of colours of vertices or faces that are not opaque. Their opacity is lost.
+  std::uint64_t translucent_colours = 0;
   // The name of the format, and the number of the first vertex in that format. Both occur in
   // messages.
   std::string_view format;
@@ -82,10 +85,6 @@ class RawMesh {
 
 // Returns the number and the noun, in the plural if needed: "3 faces", "1 face".
 std::string counted(std::uint64_t count, std::string_view noun);
-
-// Quotes text from a file so that it is safe to print: at most 60 characters of printable ASCII, on
-// one line.
-std::string in_quotes(std::string_view text);
 
 // Whether the coordinates are finite and small enough that their squares are finite as well.
 bool is_usable(const Vec3& position);

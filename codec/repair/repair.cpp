@@ -16,15 +16,23 @@
 namespace vitrine::inline codec {
 namespace {
 
+// next steps in the lines of a report
+constexpr std::string_view kRemove = "remove such parts in the source";
+constexpr std::string_view kPart =
+    "separate the surfaces in the source, if they are not one object";
+
 // Counts the faces affected by one kind of repair. Stores the lowest number of an affected face.
 struct Tally {
   std::uint64_t count = 0, first = 0;
 
   void add(std::uint64_t face) { first = count++ == 0 ? face : std::min(first, face); }
-  void report(std::string_view noun, std::string_view deed, std::vector<std::string>& out) const {
+  // Appends a line to `out` if any face is affected. `step` tells the user what to do about the
+  // fault.
+  void report(std::string_view noun, std::string_view deed, std::string_view step,
+              std::vector<std::string>& out) const {
     if (count == 0) return;
     out.push_back(counted(count, noun) + ' ' + std::string(deed) + ", first at face " +
-                  std::to_string(first));
+                  std::to_string(first) + "; " + std::string(step));
   }
 };
 
@@ -116,10 +124,10 @@ class Repairer {
       tally.add(f);
     }
     if (tally.count > 0) erase(marked);
-    tally.report("degenerate face", "dropped", repairs_);
+    tally.report("degenerate face", "dropped", kRemove, repairs_);
   }
 
-  // Removes each face that equals an earlier one. Equal faces share the edge between their two
+  // Removes each face that equals an earlier face. Equal faces share the edge between their two
   // smallest vertices, so only this edge is searched. Returns whether a face was removed.
   bool drop_duplicates(const EdgeGroups& groups) {
     Tally duplicates, opposed;
@@ -137,8 +145,8 @@ class Repairer {
     duplicates.first = source(duplicates.first);
     opposed.first = source(opposed.first);
     if (duplicates.count > 0) erase(marked);
-    duplicates.report("duplicate face", "dropped", repairs_);
-    opposed.report("opposed face", "on the same vertices parted", repairs_);
+    duplicates.report("duplicate face", "dropped", kRemove, repairs_);
+    opposed.report("opposed face", "on the same vertices parted", kRemove, repairs_);
     return duplicates.count > 0;
   }
 
@@ -148,7 +156,7 @@ class Repairer {
     for (const std::uint32_t f : reversed)
       reverse_face(texturing_, f);
     Tally{reversed.size(), source(reversed.front())}.report(
-        "face", "reversed to agree with neighbours", repairs_);
+        "face", "reversed to agree with neighbours", "unify the normals in the source", repairs_);
     return true;
   }
 
@@ -158,9 +166,9 @@ class Repairer {
     std::vector<std::uint32_t> across = pair_faces(mesh_.positions, mesh_.faces, groups);
     std::vector<Triangle> faces;
     std::vector<std::uint32_t> origins;
-    // Splitting by fans suffices unless a surface folds back onto its own edge. In that case, the
-    // tangled edges are cut first. If edges are still tangled, their faces are separated from all
-    // neighbours.
+    // Splitting by fans suffices unless a surface folds back onto its own edge. In that case, some
+    // edges stay tangled (see tangled_corners()). These edges are cut, and fans are split again. If
+    // edges are still tangled, their faces are separated from all neighbours.
     for (const int corners_to_cut : {1, 3, 0}) {
       faces = mesh_.faces;
       origins = split_fans(vertex_count(), faces, across);
@@ -188,9 +196,9 @@ class Repairer {
     }
   }
 
-  // Returns the corners opposite to tangled edges. `faces` holds the current vertices of the faces
-  // in `groups`. An edge is tangled if it has more than two faces, or two faces that are equal or
-  // run in the same direction.
+  // Returns the corners opposite to tangled edges. `groups` holds the edges before vertices were
+  // split, and `faces` the faces after the split. An edge is tangled if it has more than two faces,
+  // or two faces that are equal or run in the same direction.
   std::vector<std::uint32_t> tangled_corners(const EdgeGroups& groups,
                                              std::span<const Triangle> faces) const {
     std::vector<std::uint32_t> tangled;
@@ -235,8 +243,8 @@ class Repairer {
         one_sided.add(source(a / 3));
       }
     });
-    crowded.report("non-manifold edge", "split", repairs_);
-    one_sided.report("edge", "cut where the surface has only one side", repairs_);
+    crowded.report("non-manifold edge", "split", kPart, repairs_);
+    one_sided.report("edge", "cut where the surface has only one side", kPart, repairs_);
   }
 
   void report_split_vertices(std::vector<std::uint32_t> origins) {
@@ -245,7 +253,8 @@ class Repairer {
     if (origins.empty()) return;
     repairs_.push_back(std::to_string(origins.size()) +
                        (origins.size() == 1 ? " vertex" : " vertices") +
-                       " split to part fans, first at vertex " + std::to_string(origins[0]));
+                       " split to part fans, first at vertex " + std::to_string(origins[0]) + "; " +
+                       std::string(kPart));
   }
 
   void drop_unreferenced() {
@@ -253,7 +262,8 @@ class Repairer {
                                               mesh_.positions, mesh_.attributes, mesh_.faces);
     if (dropped == 0) return;
     repairs_.push_back(std::to_string(dropped) + " unreferenced " +
-                       (dropped == 1 ? "vertex" : "vertices") + " dropped");
+                       (dropped == 1 ? "vertex" : "vertices") + " dropped; " +
+                       std::string(kRemove));
   }
 
   std::uint64_t count_components() const {

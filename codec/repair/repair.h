@@ -31,7 +31,7 @@ struct RepairedMesh {
 // - Vertices with several fans are split into one vertex per fan.
 // - Unused vertices are removed.
 //
-// All other faces are kept in their order. Materials and texture coordinates stay with their
+// All other faces stay, in their order. Materials and texture coordinates stay with their
 // corners. Fails (kBadInput) if an index is out of range or no face has an area. Takes O(n log n)
 // time.
 Expected<RepairedMesh> repair(ImportedMesh imported);

@@ -100,7 +100,8 @@ class SeamJoiner {
   const std::vector<Vec3>& positions_;
   std::span<const Triangle> faces_;
   std::vector<std::uint32_t> borders_;  // corners opposite to the border edges
-  // For each end of a border edge, the lowest-numbered vertex that is equal to it.
+  // For each end of a border edge: the lowest-numbered vertex with the same position and
+  // attributes.
   std::vector<std::uint32_t> point_;
   std::vector<std::uint32_t> older_;
 };

@@ -12,10 +12,10 @@
 namespace vitrine::inline codec {
 
 // Merges the vertices that are repeated along seams. Two border edges lie on a seam if they join
-// the same two points with the same attributes. Their ends are then merged, unless one of the two
-// faces is a copy or the reverse of the other. Vertices are not merged if only they coincide, but
-// not their border edges; if they lie along an inner edge; or if three or more border edges
-// coincide.
+// the same two points with the same attributes. The ends of these two edges are then merged, unless
+// one of the two faces is a copy or the reverse of the other. Coinciding vertices are not merged in
+// three cases: their border edges do not coincide; they lie along an inner edge; or three or more
+// border edges coincide.
 //
 // The remaining vertices keep their order. Returns the new index of each old vertex. Positions used
 // by faces must be finite. Takes O(n log n) time.

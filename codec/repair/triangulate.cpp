@@ -52,7 +52,8 @@ bool is_convex(std::span<const FlatCorner> polygon) {
   return true;
 }
 
-// Whether ears must be clipped. Corners whose coordinates are not finite cannot be projected.
+// Whether the polygon must be triangulated by ear clipping. Returns false if a corner's coordinates
+// are not usable, because such a corner cannot be projected.
 bool needs_clipping(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon,
                     std::span<const FlatCorner> flat) {
   const auto usable = [&](std::uint32_t v) { return is_usable(positions[v]); };

@@ -21,7 +21,7 @@ class VertexOrder {
   int operator()(std::uint32_t a, std::uint32_t b) const;
 
   // Sorts `vertices` by value and then by index. Calls visit(vertex, oldest) for each vertex;
-  // `oldest` is the vertex with the lowest index among all equal ones.
+  // `oldest` is the vertex with the lowest index among all vertices with the same value.
   template <class Visit>
   void for_each_oldest(std::vector<std::uint32_t> vertices, Visit visit) const {
     std::sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -40,9 +40,9 @@ class VertexOrder {
   const VertexAttributes& attributes_;
 };
 
-// Merges each vertex v into vertex older[v], unless the two are the same. older[v] is at most v and
-// may itself be merged into another vertex. Changes `older` to hold the new index of each old
-// vertex. The remaining vertices keep their order.
+// Merges each vertex v into vertex older[v], unless older[v] is v. older[v] must be at most v.
+// Vertex older[v] may itself be merged into another vertex. Changes `older` to hold the new index
+// of each old vertex. The remaining vertices keep their order.
 void merge_into_older(std::vector<std::uint32_t>& older, std::vector<Vec3>& positions,
                       VertexAttributes& attributes);
 

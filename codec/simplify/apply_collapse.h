@@ -14,8 +14,8 @@ struct Pick {
 };
 
 // Collapses `edge`, which must be the edge at pick.corner and must pass keeps_manifold(). Moves v1
-// to v~, adds v2's quadric to v1's, and merges the attributes of both vertices. Leaves
-// `surface.live` unchanged.
+// to the merged position v~, adds v2's quadric to v1's, and merges the attributes of both vertices.
+// Leaves `surface.live` unchanged.
 Collapse apply_collapse(Surface& surface, const EdgeStar& edge, const Pick& pick);
 
 }  // namespace vitrine::inline codec

@@ -42,8 +42,8 @@ class Patch {
   std::span<const TrianglePoints> faces() const { return face_; }
 
   // Whether the squared distance from `p` to some face of the patch is at most `squared`. Callers
-  // pass points in the order of the faces, so each search starts at the face where the last one
-  // ended.
+  // pass points in the order of the faces, so each search starts at the face where the previous
+  // search ended.
   bool is_near(const Vec3& p, double squared) {
     for (std::uint32_t i = 0; i < size(); ++i) {
       if (squared_distance(face_[last_], p) <= squared) return true;
@@ -93,7 +93,7 @@ class Patch {
 // Whether two patches with the same boundary lie in a thin slab and all their faces point to the
 // same side. If so, both patches cover each point of the slab's plane equally often, namely as
 // often as their common boundary winds around the point. Each patch therefore lies straight above
-// or below the other.
+// or below the other patch.
 bool share_slab(const Patch& one, const Patch& other, double thickness) {
   Vec3 normal;
   for (const TrianglePoints& t : one.faces())

@@ -44,8 +44,9 @@ struct EdgeStar {
 
 // Whether the mesh, with its boundary loops closed by virtual faces (connectivity.h), remains a
 // simplicial manifold after the collapse [DEGN99]. Checks that v1 and v2 share exactly two
-// neighbours, that neither of these has valence 3, and that the collapse does not join two parts of
-// the boundary. Also checks that the merged vertex has a valence of at most kMaxSplitValence.
+// neighbours, that neither of these neighbours has valence 3, and that the collapse does not join
+// two parts of the boundary. Also checks that the merged vertex has a valence of at most
+// kMaxSplitValence.
 bool keeps_manifold(const Connectivity& mesh, const EdgeStar& edge);
 
 // Returns the position v~ of the merged vertex, as the rule of codec/format/placement.h defines it.

@@ -14,7 +14,7 @@ namespace {
 struct EdgeCost {
   double cost;
   VertexId a, b;        // a < b
-  std::uint32_t stamp;  // sum of the stamps of a and b when the cost was computed
+  std::uint32_t stamp;  // stamp_[a] + stamp_[b] when the cost was computed
 
   // Compares in reverse, because std::priority_queue pops the largest element first.
   bool operator<(const EdgeCost& o) const {

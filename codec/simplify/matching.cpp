@@ -12,25 +12,26 @@ namespace vitrine::inline codec {
 namespace {
 
 // Shares of a collapse's error that do not count as its cost, because the display filter removes
-// them: the filter lifts midpoints that have sunk below a curved surface. The filter of fine levels
-// is weaker, because their rounding is as large as their error.
+// them: the filter lifts midpoints that have sunk below a curved surface. In the regular (finest)
+// levels, the filter is weaker, because rounding is as large as the error.
 constexpr double kLiftedRegular = 0.6, kLifted = 0.9;
 // Share of the edges, cheapest first, that may collapse in a level. A smaller share follows the
 // surface more closely; a larger one gives fewer levels. The values were chosen by measuring
 // rate-distortion curves.
 constexpr double kCheapRegular = 0.7, kCheap = 0.6;
-// Costs within the same eighth of an octave count as equal. Edges of equal cost stay in the order
-// of their vertices, which are sorted in space (order_in_space.h). A level therefore sweeps through
-// memory a few dozen times instead of jumping at random.
+// Costs within the same eighth of an octave (a factor of 2) count as equal. Edges of equal cost
+// stay in the order of their vertices, which are sorted in space (order_in_space.h). A level
+// therefore sweeps through memory a few dozen times instead of jumping at random.
 constexpr int kStepBits = 3;
 // The limit for keeps_near(), as a share of the mean edge length. A smaller limit reduces the
 // maximum error but leaves more collapses of a rough surface to later levels.
 constexpr double kReachRegular = 0.1, kReach = 0.25;
-// Number of vertices whose edges one call lists. It does not depend on the number of threads,
-// because it determines the order in which lengths are added.
+// Number of vertices whose edges one call of edges_at() lists. It must not depend on the number of
+// threads, because it determines the order in which edge lengths are added, and so the rounding of
+// their sum.
 constexpr std::size_t kListed = 8192;
-// Number of edges that several threads check before the first of them is chosen, and how many of
-// them one call checks.
+// kChecked: number of edges that several threads check before one of these edges is chosen.
+// kCheckedAtOnce: number of edges that one call checks.
 constexpr std::size_t kChecked = 16'384, kCheckedAtOnce = 256;
 
 // Returns a sort key for the cost. The bits of non-negative floats are in the same order as the
@@ -139,9 +140,10 @@ CollapseMatcher::EdgeList CollapseMatcher::edges_at(const LevelRules& rules,
   return list;
 }
 
-// Estimates v~ much faster than merged_position(). The result is exact for midpoint placement. For
-// pyramid placement, it is exact up to rounding. The rounding of midpoints must be included: of two
-// edges that are otherwise equal, perhaps only one has a midpoint that rounds onto the surface.
+// Estimates the merged position v~ much faster than merged_position(). The result is exact for
+// midpoint placement. For pyramid placement, it is exact up to rounding. The rounding of midpoints
+// must be included: of two edges that are otherwise equal, perhaps only one has a midpoint that
+// rounds onto the surface.
 Vec3 CollapseMatcher::likely_target(const LevelRules& rules, Corner c) const {
   const Connectivity& mesh = surface_.mesh;
   const VertexId v = mesh.vertex(c), w = mesh.neighbour(c);
@@ -163,9 +165,10 @@ Vec3 CollapseMatcher::likely_target(const LevelRules& rules, Corner c) const {
   return middle + near * (1.0 / (4 * m)) - far * (1.0 / (4 * (both - shared)));
 }
 
-// Several threads check edges before it is their turn to be chosen. The result does not depend on
-// this, because a check reads only the mesh, which does not change here. A single thread instead
-// checks each edge when its turn comes, which avoids checks of edges that are no longer available.
+// Several threads check edges in advance, before the choice reaches these edges. The result does
+// not depend on this, because a check reads only the mesh, which does not change here. A single
+// thread instead checks each edge when the choice reaches it, which avoids checks of edges that are
+// no longer available.
 void CollapseMatcher::choose(const LevelRules& rules, std::span<const KeyedIndex> edges,
                              std::size_t enough) {
   const std::size_t most = threads_ == 1 ? 1 : kChecked;

@@ -42,9 +42,9 @@ class CollapseMatcher {
       : surface_(surface), threads_(threads) {}
 
   // Chooses the collapses of a level, cheapest edges first. Costs within the same eighth of an
-  // octave count as equal; edges of equal cost are chosen in ascending order of their smaller
-  // vertex. Returns the collapses in ascending lexicographic order of their targets, without
-  // duplicate targets.
+  // octave (a factor of 2) count as equal. Edges of equal cost are chosen in ascending order of
+  // their smaller vertex. Returns the collapses in ascending lexicographic order of their targets,
+  // without duplicate targets.
   //
   // After an edge is chosen, some neighbours of its ends cannot collapse in this level. These are
   // all neighbours with pyramid placement, and neighbours in other regions if `keeps_regions` is
@@ -66,7 +66,8 @@ class CollapseMatcher {
   Vec3 likely_target(const LevelRules& rules, Corner c) const;
   // Tries the edges in the given order until `enough` collapses are chosen.
   void choose(const LevelRules& rules, std::span<const KeyedIndex> edges, std::size_t enough);
-  // Returns the target of the edge at `c`, or nullopt if the edge must not collapse now.
+  // Returns the position of the merged vertex if the edge at `c` collapses, or nullopt if the edge
+  // must not collapse now.
   std::optional<Vec3i> check(const LevelRules& rules, Corner c) const;
   bool is_taken(Corner c) const {
     return is_taken_[surface_.mesh.vertex(c)] != 0 || is_taken_[surface_.mesh.neighbour(c)] != 0;

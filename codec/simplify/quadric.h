@@ -40,7 +40,7 @@ struct Quadric {
   }
 };
 
-// Returns the quadric of the plane through `p` with the unit vector `normal`.
+// Returns the quadric of the plane through the point `p` with the unit normal `normal`.
 inline Quadric plane_quadric(const Vec3& normal, const Vec3& p, double weight) {
   const double offset = -dot(normal, p);
   const Vec3 n = normal * weight;

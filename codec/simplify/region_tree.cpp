@@ -39,8 +39,8 @@ class RegionTreeBuilder {
   }
 
  private:
-  // Chooses the plane that divides `vertices` at the median of their longest axis. Returns false if
-  // all vertices coincide.
+  // Chooses the plane that divides `vertices` at the median along the longest side of their
+  // bounding box. Returns false if all vertices coincide.
   bool choose(std::span<std::uint32_t> vertices, RegionPlane& plane) const {
     Vec3i low = positions_[vertices[0]], high = low;
     for (const std::uint32_t v : vertices) {

@@ -21,8 +21,8 @@ namespace {
 // (LevelRules::is_regular).
 constexpr std::uint32_t kRegularLevels = 4;
 // Weight of the edge length in the cost. With this weight, short edges collapse first. This matters
-// most in the finest level, where the other costs are noise. Without it, coarser levels need more
-// bytes.
+// most in the finest level, where the other costs are noise. Without this weight, coarser levels
+// need more bytes.
 constexpr double kFinestLengthWeight = 5e-3, kLengthWeight = 1e-3;
 constexpr double kCellPerError = 1;  // side of a cell, relative to the rms distance from the planes
 // A level that removes less than 1/50 of the vertices is the last one, unless small components can
@@ -160,7 +160,7 @@ class Simplifier {
   }
 
   void join_regions(std::uint32_t from_finest, bool in_one) {
-    // The finest level has all leaves as regions: nothing is joined for it.
+    // The finest level has all leaves as regions, so no regions are joined for this level.
     const bool join_all = in_one && from_finest > 0;
     regions_.join(surface_.live, join_all ? UINT32_MAX : options_.region_vertices, surface_.region);
   }

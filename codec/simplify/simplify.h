@@ -23,8 +23,8 @@ struct SimplifyOptions {
   Placement placement = Placement::kMidpoint;
   CollapseOrder order = CollapseOrder::kBatch;
   std::uint32_t target_vertices = 300;  // approximate number of vertices of the base mesh
-  // A region with more vertices than this forks. 0 means that the whole model is one region. In the
-  // coarsest levels, regions may have fewer vertices, because each vertex costs more bytes there.
+  // A region with more vertices than this forks. Sibling regions with at most this many vertices
+  // together are joined. 0 means that the whole model is one region.
   std::uint32_t region_vertices = 0;
   // Whether coarse levels may omit small components. A textured model keeps them.
   bool omits_components = true;
@@ -39,12 +39,13 @@ struct SimplifyOptions {
 // few lattice steps wide.
 //
 // Fails (kBadInput) if Connectivity::close() refuses the faces. The base mesh has more vertices
-// than requested if no legal collapse is left or the maximum number of levels is reached. No legal
-// collapse may be left in meshes of high genus and, with kHeap, in meshes of many components. If
+// than requested if no legal collapse is left or the maximum number of levels is reached. Legal
+// collapses can run out in meshes of high genus and, with kHeap, in meshes of many components. If
 // the coarsest level would have more than one region, the model is simplified as a single region.
 //
-// With midpoint placement, v~ lies inside the lattice. With pyramid placement, v~ lies at most a
-// quarter of the lattice's side outside. The same input gives the same hierarchy on every machine.
+// With midpoint placement, merged vertices lie inside the lattice. With pyramid placement, they lie
+// at most a quarter of the lattice's side outside. The same input gives the same hierarchy on every
+// machine.
 Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options,
                              std::span<const Vec3> original = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses small components that are removed between the fine mesh and the base mesh. A level omits
-// the components that are smaller than its error. A level omits more components if the base mesh
+// the components that are smaller than the level's error. It omits more components if the base mesh
 // would otherwise have too many vertices.
 #pragma once
 

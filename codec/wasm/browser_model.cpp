@@ -67,7 +67,7 @@ BrowserModel::BrowserModel(std::shared_ptr<const Manifest> manifest)
 
 Expected<std::unique_ptr<BrowserModel>> BrowserModel::open(std::span<const std::uint8_t> header) {
   auto manifest = parse_header(header, kBrowserLimits);
-  if (!manifest) return tl::unexpected(std::move(manifest.error()));
+  if (!manifest) return tl::unexpected(manifest.error());
   return std::make_unique<BrowserModel>(std::make_shared<const Manifest>(std::move(*manifest)));
 }
 
@@ -101,7 +101,7 @@ Expected<void> BrowserModel::check_chunk(std::size_t chunk,
 Expected<void> BrowserModel::start(BaseMesh base, std::span<const std::uint8_t> atlas) {
   if (!manifest_->texture.empty()) {
     auto decoded = decode_atlas(atlas, base);
-    if (!decoded) return tl::unexpected(std::move(decoded.error()));
+    if (!decoded) return tl::unexpected(decoded.error());
     base.atlas = std::move(*decoded);
   }
   base_ = std::move(base);
@@ -114,7 +114,7 @@ Expected<void> BrowserModel::start(BaseMesh base, std::span<const std::uint8_t> 
 
 Expected<void> BrowserModel::restart() {
   auto refiner = Refiner::start(manifest_, base_);
-  if (!refiner) return tl::unexpected(std::move(refiner.error()));
+  if (!refiner) return tl::unexpected(refiner.error());
   refiner_ = std::move(*refiner);
   applied_.assign(manifest_->chunks.size(), false);
   planner_.emplace(*manifest_);
@@ -146,7 +146,7 @@ Expected<bool> BrowserModel::want(const View& view, double most_triangles) {
 
 Expected<bool> BrowserModel::pursue(const Want& goal, bool back) {
   if (back) {
-    if (auto done = restart(); !done) return tl::unexpected(std::move(done.error()));
+    if (auto done = restart(); !done) return tl::unexpected(done.error());
   }
   planner_.emplace(*manifest_);
   planner_->want(goal);

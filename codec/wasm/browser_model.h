@@ -55,8 +55,8 @@ class BrowserModel {
   // Number of displayed vertices. If the model has a texture, these are the wedges: a vertex of the
   // mesh is displayed once for each of its wedges.
   std::uint32_t displayed_vertices() const;
-  // Returns the displayed vertex from which the last applied chunk made v, a displayed vertex.
-  // Returns v itself if that chunk did not make it by a split.
+  // `v` is a displayed vertex. Returns the displayed vertex that the last applied chunk split to
+  // create v, or v itself if that chunk did not create v by a split.
   VertexId parent_of(VertexId v) const;
 
   // The displayed surface is returned in pieces, which saves a second copy of the surface. Call
@@ -81,7 +81,7 @@ class BrowserModel {
   //  per level: vertices, faces, max error, rms error, cumulative bytes;
   //  per chunk: level, region, offset, length;
   //  if the model has a texture: atlas offset, atlas length, alpha mode, alpha cutoff,
-  //  1 if double-sided, 1 if unlit, pictures, pictures in the head;
+  //  1 if double-sided, 1 if unlit, number of pictures, number of pictures in the file's head;
   //  per picture: role, side, offset, length.
   const std::vector<double>& summary();
 

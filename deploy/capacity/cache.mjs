@@ -3,7 +3,7 @@
 // occupies whole disk blocks. Like nginx's cache manager, the simulation frees space at intervals,
 // not at each request.
 
-// Bytes of a disk block, and bytes of the response header with which a cache file begins.
+// Size of a disk block, and of the response header at the start of each cache file, in bytes.
 const kBlock = 4096, kHeader = 1024;
 
 /** Returns the disk space that a chunk of `bytes` occupies in the cache. */
@@ -28,7 +28,7 @@ export class DiskCache {
     return size !== undefined;
   }
 
-  /** Removes the least recently used files until the cache has its configured size. Called at intervals. */
+  /** Removes the least recently used files until the cache is below its capacity. Called at intervals. */
   makeRoom() {
     for (const [key, size] of this.#files) {
       if (this.#used < this.capacity) return;
@@ -39,10 +39,11 @@ export class DiskCache {
 }
 
 /**
- * Simulates all `looks` (visitors.mjs) at `models` through the cache. Returns the number of looks,
- * the numbers of chunks and bytes that visitors requested, and how many of them came from the
- * origin. Streams bypass the cache, and their bytes are counted separately. The cache manager runs
- * after every `managed` chunk requests.
+ * Simulates how visitors load `models` through the cache. Each element of `looks` is one model that
+ * a visitor opens (looks() in visitors.mjs). Returns the number of looks, the numbers of chunks and
+ * bytes that visitors requested, and how many of these chunks and bytes came from the origin.
+ * Streams bypass the cache, so their bytes are counted separately. The cache manager runs after
+ * every `managed` chunk requests.
  */
 export function serve(looks, models, cache, managed) {
   const first = [0];  // number of each model's first chunk, counted over all models

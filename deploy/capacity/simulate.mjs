@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: Apache-2.0
 // Simulates how many viewers a machine can serve without a cache and with caches of several sizes.
-// Usage: simulate.mjs [FILE.json]; the values in FILE override those of the scenario below.
+// Usage: simulate.mjs [FILE.json]; the values in FILE override the values of the scenario below.
 // tests/deploy/capacity.test.mjs compares the simulation with a real nginx in front of a real daemon.
 import { readFileSync } from "node:fs";
 import { DiskCache, room, serve } from "./cache.mjs";
@@ -11,8 +11,8 @@ const kScenario = {
   seed: 1,
   models: { count: 1000, bytes: 1.8e6, chunkBytes: 16384 },
   // exponent: exponent of Zipf's law. looks: mean number of models that a visitor opens. seconds:
-  // mean time for which a visitor looks at one model. streams: share of the models that are
-  // streamed over a WebSocket.
+  // mean time that a visitor looks at one model. streams: share of looks over a WebSocket stream.
+  // lines: speeds of connections, and the share of visitors with each speed.
   visitor: {
     exponent: 0.8, looks: 4, seconds: 30, streams: 0.1,
     lines: [{ share: 0.2, bytesPerSecond: 1e5 }, { share: 0.5, bytesPerSecond: 1e6 }, { share: 0.3, bytesPerSecond: 5e6 }],
@@ -20,7 +20,8 @@ const kScenario = {
   visits: 8000,  // simulated visits; only the second half is counted
   caches: [0.05, 0.1, 0.25, 0.5, 1.01],  // cache sizes, as shares of the space that all chunks need
   managed: 5000,  // chunk requests between two runs of the cache manager
-  // Uncached responses for each opened model: page, model, manifest, head.
+  // Number and total bytes of the uncached responses for each opened model: page, model, manifest
+  // and head.
   answers: { count: 4, bytes: 40e3 },
   // Responses per second measured on one core, and bytes per second of a link of one gigabit per
   // second (CAPACITY.md).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulates visitors. A visitor chooses models by Zipf's law and looks at a random number of them,
-// each for a random time. The connections of visitors have different speeds.
+// Simulates visitors. A visitor opens a random number of models, chosen by Zipf's law, and looks at
+// each model for a random time. The connections of visitors have different speeds.
 
 /** Returns a generator of random numbers from 0 to 1 (mulberry32). The same seed always gives the same numbers. */
 export function chance(seed) {

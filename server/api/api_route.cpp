@@ -1,8 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/api/api_route.h"
 
+#include "server/api/path_parameters.h"
+#include "server/api/services.h"
+#include "server/api/visibility.h"
+
 namespace vitrine::server {
 namespace {
+
+std::optional<Opening> model_in_path(const Request& request, Services& services) {
+  return opening_of(id_in<ModelId>(request), request.caller.has_value(), services.models);
+}
+
+std::optional<Opening> model_of_chunk(const Request& request, Services& services) {
+  const auto place = services.catalogue.find_chunk(sha256_in(request));
+  if (!place || !*place) return std::nullopt;
+  return opening_of((*place)->model, /*has_token=*/false, services.models);
+}
+
+// Returns the model file that decides whether a visitor may see the scan. A caller with a token
+// sees every scan, so no file is needed then.
+std::optional<Opening> model_of_scan(const Request& request, const ScanId& id, Services& services) {
+  if (request.caller) return std::nullopt;
+  const auto scan = services.scans.find(id);
+  if (!scan || !*scan || !(*scan)->entry.model) return std::nullopt;
+  return opening_of(*(*scan)->entry.model, /*has_token=*/false, services.models);
+}
+
+std::optional<Opening> model_of_scan_in_path(const Request& request, Services& services) {
+  return model_of_scan(request, id_in<ScanId>(request), services);
+}
+
+std::optional<Opening> model_of_job_in_path(const Request& request, Services& services) {
+  if (request.caller) return std::nullopt;
+  const auto job = services.scans.jobs().find(id_in<JobId>(request));
+  if (!job || !*job || !(*job)->record.scan) return std::nullopt;
+  return model_of_scan(request, *(*job)->record.scan, services);
+}
+
+// Returns null if no handler of this path opens a model.
+ApiOpeningFinder finder_for(std::string_view path) {
+  if (path.find("{id}") != path.npos) {
+    if (path.starts_with("/api/v1/models/") || path.starts_with("/models/") ||
+        path.starts_with("/api/v1/iiif/")) {
+      return model_in_path;
+    }
+    if (path.starts_with("/api/v1/scans/")) return model_of_scan_in_path;
+    if (path.starts_with("/api/v1/jobs/")) return model_of_job_in_path;
+  }
+  return path == "/api/v1/chunks/{sha256}" ? model_of_chunk : nullptr;
+}
+
+bool may_open(const ApiRoute& route) {
+  if (route.is_urgent) return false;
+  return route.executor == Executor::kWorker || route.executor == Executor::kCompute;
+}
 
 Route bind(const ApiRoute& route, Services& services) {
   Route bound{.method = route.method,
@@ -17,6 +69,11 @@ Route bind(const ApiRoute& route, Services& services) {
     bound.quick = [quick = route.quick, &services](const Request& request) {
       return quick(request, services);
     };
+  }
+  const ApiOpeningFinder opens =
+      route.opens != nullptr || !may_open(route) ? route.opens : finder_for(route.path);
+  if (opens != nullptr) {
+    bound.opens = [opens, &services](const Request& request) { return opens(request, services); };
   }
   return bound;
 }

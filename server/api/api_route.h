@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares ApiRoute: a REST route with its documentation. bind() turns such routes into routes for
+// Declares ApiRoute, a REST route with its documentation. bind() converts ApiRoutes to routes of
 // the HTTP server.
 #pragma once
 
@@ -13,10 +13,11 @@ namespace vitrine::server {
 struct Services;
 
 using ApiHandler = Response (*)(const Request& request, Services& services);
+using ApiOpeningFinder = std::optional<Opening> (*)(const Request& request, Services& services);
 using ApiQuickHandler = std::optional<Response> (*)(const Request& request, Services& services);
 
-// The description of a route in the OpenAPI document. Schemas and parameters are given by their
-// names in ApiNoun::components.
+// Documentation of a route for the OpenAPI document. It refers to schemas and parameters by the
+// names that they have in ApiNoun::components.
 struct RouteDoc {
   std::string_view id = {};          // unique operationId; empty if the route is not documented
   std::string_view summary = {};     // one or two sentences
@@ -31,7 +32,8 @@ struct RouteDoc {
 };
 
 // A route of the API. `doc` documents it in the OpenAPI document. The other members mean the same
-// as in Route.
+// as in Route. If `opens` is null, a route on a worker or for computations opens the model, or the
+// model of the scan, job or chunk, that its path names.
 struct ApiRoute {
   Method method = Method::kGet;
   std::string_view path;
@@ -41,6 +43,7 @@ struct ApiRoute {
   ApiQuickHandler quick = nullptr;
   bool reads_body = true;
   bool is_urgent = false;
+  ApiOpeningFinder opens = nullptr;
   RouteDoc doc = {};
 };
 

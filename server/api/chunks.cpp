@@ -10,7 +10,7 @@ Response chunk_response(const PublishedChunk& chunk, const Request& request) {
   Response response;
   response.type = "application/octet-stream";
   response.caching = Caching::kImmutable;
-  response.etag = '"' + to_hex(sha256_in(request)) + '"';
+  response.etag = stored_tag(*chunk.model, sha256_in(request));
   response.body = stored_body(chunk.model, chunk.range);
   return response;
 }
@@ -25,8 +25,8 @@ Response model_chunk(const std::shared_ptr<const PublishedModel>& model, const R
 
 }  // namespace
 
-// Serves most chunk requests. Looks for the chunk only in the models that are open in memory, and
-// returns nullopt if none has it. The chunk's bytes come from the kernel's page cache.
+// Serves most chunk requests without a worker thread. Looks for the chunk only in models that are
+// open in memory, and returns nullopt if no open model has it.
 static std::optional<Response> show_cached_chunk(const Request& request, Services& services) {
   const auto chunk = services.models.cached_chunk(sha256_in(request));
   if (!chunk) return std::nullopt;
@@ -80,6 +80,10 @@ static constexpr ApiRoute kChunkRoutes[] = {
              .response = "application/octet-stream"}},
 };
 
-const ApiNoun kChunks = {.routes = kChunkRoutes};
+static constexpr ApiTag kChunksTags[] = {
+    {.name = "chunks",
+     .description = "Immutable parts of models, which a viewer fetches one by one."}};
+
+const ApiNoun kChunks = {.routes = kChunkRoutes, .tags = kChunksTags};
 
 }  // namespace vitrine::server

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "codec/build/coarser_levels.h"
 #include "codec/build/exported_texture.h"
 #include "codec/build/refine.h"
 #include "codec/mesh/texturing.h"
@@ -15,18 +17,24 @@ namespace vitrine::server {
 
 struct DecodedModel {
   TriangleMesh mesh;  // without vertex colours if there is a texture
-  // Textures in the form that write_textured_mesh() requires; empty without a texture.
+  // Textures in the form that write_textured_mesh() requires; empty if there is no texture.
   Texturing texturing;
   ShownDetail detail;
 };
 
-// Returns the mesh of the model at the level of detail `want`, in model units and with the display
-// filter applied. `texture_side` is the largest side of the pictures in pixels, and `roles` are the
-// roles of the pictures, as in pictures_to_export(). The mesh gets no texture if `texture_side` is
-// 0 or `roles` is empty. Decodes in this process, without a sandbox, since the file was checked
-// when it was published.
+// Returns the mesh of the model at the level of detail `want`, turned and scaled as the model is
+// presented, in the model's unit, with the smoothing that viewers apply (display filter).
+// `texture_side` limits the side of the pictures in pixels, and `roles` selects the pictures, as in
+// pictures_to_export(). The mesh gets no texture if `texture_side` is 0 or `roles` is empty.
+// Decodes in this process, without a sandbox, because the file was checked when it was published.
 Expected<DecodedModel> decoded_model(const PublishedModel& model, const Want& want,
                                      std::optional<std::uint32_t> texture_side,
                                      PictureRoles roles = PictureRoles().set());
+
+// Decodes the coarser levels that an export with several levels of detail has in addition to
+// `finest`, placed like `finest`. Returns them from fine to coarse
+// (codec/build/coarser_levels.h).
+Expected<std::vector<CoarserLevel>> levels_below(const DecodedModel& finest,
+                                                 const PublishedModel& model);
 
 }  // namespace vitrine::server

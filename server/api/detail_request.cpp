@@ -29,7 +29,7 @@ tl::expected<Want, std::string> parse_want(std::string_view name, std::string_vi
   if (name == "error") {
     const auto error = parse_number<double>(text);
     if (error && *error >= 0 && *error < 1e300) return WantError{*error};
-    return tl::unexpected(std::string("a distance in the model's unit, 0 or more"));
+    return tl::unexpected(std::string("a distance in the coordinates of the file, 0 or more"));
   }
   const auto count = parse_number<std::uint64_t>(text);
   if (!count) return tl::unexpected(std::string("a whole number, 0 or more"));
@@ -37,8 +37,8 @@ tl::expected<Want, std::string> parse_want(std::string_view name, std::string_vi
   return WantTriangles{*count};
 }
 
-// Reads the bandwidth `kbps` (kilobits per second) and the time `seconds`, and requests as many
-// bytes as arrive in that time.
+// Reads `kbps`, a bandwidth in kilobits per second, and `seconds`. Returns a request for the number
+// of bytes that arrive in this time.
 tl::expected<DetailRequest, ParameterFault> parse_line(const Query& query) {
   double kbps = 0, seconds = 0;
   for (const auto& [name, value] : {std::pair("kbps", &kbps), std::pair("seconds", &seconds)}) {
@@ -54,8 +54,8 @@ tl::expected<DetailRequest, ParameterFault> parse_line(const Query& query) {
 }
 
 DetailRequest unstated(const RequestHeader& header, std::uint32_t levels) {
-  if (saves_data(header)) return {.want = WantBytes{kSavedDataBytes}, .stated = false};
-  return {.want = WantLevel{levels - 1}, .stated = false};
+  if (saves_data(header)) return {.want = WantBytes{kSavedDataBytes}, .is_stated = false};
+  return {.want = WantLevel{levels - 1}, .is_stated = false};
 }
 
 }  // namespace
@@ -118,8 +118,8 @@ DetailForecast forecast_of(const Want& want, const Manifest& manifest) {
   DetailForecast forecast{.level = whole ? finest : manifest.chunks[missing].level - 1,
                           .triangles = whole ? manifest.levels[finest].faces : planner.faces_held(),
                           .bytes = planner.bytes_held()};
-  // For WantTriangles, the mesh uses only as many splits of the last chunk as the triangle limit
-  // allows.
+  // The decoder applies only some vertex splits of the last chunk, so that the mesh stays within
+  // the limit of WantTriangles.
   if (const auto* w = std::get_if<WantTriangles>(&want)) {
     while (forecast.level > 0 && manifest.levels[forecast.level].faces > w->triangles)
       --forecast.level;

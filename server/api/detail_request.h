@@ -22,8 +22,8 @@ inline constexpr std::uint64_t kSavedDataBytes = 1'000'000;
 
 struct DetailRequest {
   Want want;
-  bool stated = true;  // false if the request has no detail parameters, so `want` is the default
-  double kbps = 0;     // the client's bandwidth in kilobits per second; 0: unknown
+  bool is_stated = true;  // false if the request has no detail parameters, so `want` is the default
+  double kbps = 0;        // the client's bandwidth in kilobits per second; 0: unknown
 };
 
 // Reads the detail request from a query. Without detail parameters, requests the whole model, or at
@@ -36,15 +36,15 @@ tl::expected<DetailRequest, ParameterFault> read_detail_request(
 bool saves_data(const RequestHeader& header);
 
 // Returns a key under which the result of `want` can be cached. Equal detail requests have equal
-// keys, even if their query texts differ. All requests for more triangles than the model has share
-// one key. So do all requests for more bytes than the model has.
+// keys, even if their query texts differ. Requests for more triangles than the model has share one
+// key. Requests for more bytes than the model has share another key.
 std::string key_of(const Want& want, const Manifest& manifest);
 
 // The result of a detail request, estimated from the manifest without decoding.
 struct DetailForecast {
   std::uint32_t level = 0;  // the finest complete level
-  // Estimated number of triangles, at least that of `level`. The estimate is exact unless only part
-  // of the last chunk is used; then it is off by at most two triangles.
+  // Estimated number of triangles, at least as many as `level` has. The estimate is off by at most
+  // two triangles, and only if the last chunk is used in part.
   std::uint64_t triangles = 0;
   std::uint64_t bytes = 0;  // total size of the header, the base mesh and the chunks used
   double error = 0;         // upper bound of the error of `level`, in model units

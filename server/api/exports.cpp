@@ -9,7 +9,6 @@
 #include "server/api/decoded_model.h"
 #include "server/api/detail_request.h"
 #include "server/api/handlers.h"
-#include "server/api/links.h"
 #include "server/api/path_parameters.h"
 #include "server/api/published.h"
 #include "server/export/export_choices.h"
@@ -22,13 +21,13 @@ namespace {
 
 using TextureSide = std::optional<std::uint32_t>;
 
-// Returns the roles of the pictures in an export. If the format stores pictures in companion files,
-// only the zip export has pictures.
+// Returns which pictures an export contains, by their roles. If the format stores pictures in
+// companion files, as OBJ does, only a zip export contains pictures.
 PictureRoles roles_of(ExportKind kind) {
   return kind.is_zip || !has_companions(kind.format) ? roles_in(kind.format) : PictureRoles();
 }
 
-// Whether the export is a text, which gzip makes much smaller.
+// Whether the export is a text file, which gzip compresses well.
 bool is_text(ExportKind kind) {
   return !kind.is_zip && (kind.format == MeshFormat::kObj || kind.format == MeshFormat::kVrml);
 }
@@ -39,7 +38,7 @@ struct ExportOrder {
   Want want;
   TextureSide texture_side;
   ExportChoices choices;
-  FileDescription about;  // `level` and `error` are not set
+  FileDescription about;  // make_export() sets `level` and `error`
 };
 
 Expected<std::vector<std::uint8_t>> make_export(const PublishedModel& model, ExportOrder order) {
@@ -48,10 +47,15 @@ Expected<std::vector<std::uint8_t>> make_export(const PublishedModel& model, Exp
   if (!decoded) return tl::unexpected(decoded.error());
   order.about.level = decoded->detail.level;
   order.about.error = decoded->detail.error;
-  auto files = write_textured_mesh(
-      decoded->mesh, std::move(decoded->texturing), kind.format, model.record().id.to_string(),
+  ExportOptions options =
       export_options(order.choices, kind.format, model.manifest().unit, std::move(order.about),
-                     {decoded->detail.grid_origin, decoded->detail.grid_step}));
+                     {decoded->detail.grid_origin, decoded->detail.grid_step});
+  Expected<std::vector<CoarserLevel>> coarser;
+  if (order.choices.has_levels) coarser = levels_below(*decoded, model);
+  if (!coarser) return tl::unexpected(coarser.error());
+  options.coarser = *coarser;
+  auto files = write_textured_mesh(decoded->mesh, std::move(decoded->texturing), kind.format,
+                                   model.record().id.to_string(), options);
   if (!files) return tl::unexpected(files.error());
   return kind.is_zip ? zip(*files) : std::move(files->front().bytes);
 }
@@ -67,13 +71,15 @@ tl::expected<TextureSide, ParameterFault> read_texture_side(const Query& query) 
   return side;
 }
 
-// Reads the query parameters `unit`, `up` and `compression`.
+// Reads the query parameters `unit`, `up`, `compression` and `lod`.
 tl::expected<ExportChoices, ParameterFault> read_export_choices(const Query& query,
                                                                 MeshFormat format,
                                                                 std::string_view model_unit) {
-  const auto choices = read_choices(
-      {.unit = query.get("unit"), .up = query.get("up"), .compression = query.get("compression")},
-      format);
+  const auto choices = read_choices({.unit = query.get("unit"),
+                                     .up = query.get("up"),
+                                     .compression = query.get("compression"),
+                                     .lod = query.get("lod")},
+                                    format);
   if (!choices) {
     return tl::unexpected(
         ParameterFault{std::string(choices.error().name), choices.error().wanted});
@@ -92,8 +98,8 @@ FileDescription description_of(const ModelRecord& record, const std::string& ori
           .source = fmt::format("{}/models/{}", origin, record.id.to_string())};
 }
 
-// Returns the export compressed by gzip. `plain` is the uncompressed export, or null if it is not
-// in the cache.
+// Returns the export compressed by gzip. `plain` is the uncompressed export, or null if the cache
+// does not have it.
 Expected<std::vector<std::uint8_t>> make_compressed(const ExportCache::File& plain,
                                                     const PublishedModel& model,
                                                     const ExportOrder& order) {
@@ -101,7 +107,8 @@ Expected<std::vector<std::uint8_t>> make_compressed(const ExportCache::File& pla
   return make_export(model, order).map(gzip);
 }
 
-// Returns the part of a cache key that covers the file's statements and the placement of the mesh.
+// Returns the part of a cache key for the descriptive texts and the choices (unit, up axis and so
+// on).
 std::string key_of(const ExportOrder& order) {
   std::string texts;
   const FileDescription& about = order.about;
@@ -110,18 +117,19 @@ std::string key_of(const ExportOrder& order) {
     texts += *text + '\0';
   }
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(texts.data()), texts.size());
-  return fmt::format("{} {} {} {}", to_hex(sha256(bytes)), order.choices.unit,
-                     name_of(order.choices.up), static_cast<int>(order.choices.compression));
+  const ExportChoices& choices = order.choices;
+  return fmt::format("{} {} {} {} {}", to_hex(sha256(bytes)), choices.unit, name_of(choices.up),
+                     static_cast<int>(choices.compression), choices.has_levels);
 }
 
-// Returns the part of a cache key that covers the texture. Texture sizes that select the same
-// pictures give the same key.
+// Returns the part of a cache key for the texture. Texture sizes that select the same pictures give
+// the same key.
 std::string key_of(TextureSide side, ExportKind kind, const Manifest& manifest) {
   if (!side) return "fitting";
   return fmt::format("{}", fmt::join(pictures_to_export(manifest, 0, side, roles_of(kind)), ","));
 }
 
-constexpr std::string_view kOwnParameters[] = {"texture", "unit", "up", "compression"};
+constexpr std::string_view kOwnParameters[] = {"texture", "unit", "up", "compression", "lod"};
 
 constexpr FixedText kMeshMediaTypes = join(
     kExportFormats, [](const ExportFormat& row) { return row.media_type; }, " ", " ");
@@ -161,9 +169,9 @@ static Response export_model(const Request& request, Services& services) {
                             .texture_side = *side,
                             .choices = *choices,
                             .about = description_of(model->record(), origin_of(request, services))};
-    const std::string key =
-        fmt::format("{} {} {} {} {}", to_hex(model->record().file), name,
-                    key_of(*side, *kind, manifest), key_of(detail->want, manifest), key_of(order));
+    const std::string key = fmt::format(
+        "{} {} {} {} {} {}", to_hex(model->record().file), name, key_of(*side, *kind, manifest),
+        key_of(detail->want, manifest), key_of(order), key_of(model->record().presentation));
     const bool is_compressed = is_text(*kind) && takes_gzip(request.header);
     const auto file = services.exports.find_or_make(
         is_compressed ? key + " gzip" : key, [&]() -> Expected<std::vector<std::uint8_t>> {
@@ -200,7 +208,10 @@ static constexpr std::string_view kExportsComponents = R"json({
     "schema": {"enum": ["y", "z"]}},
   "compression": {"name": "compression", "in": "query",
     "description": "Compression of a GLB: EXT_meshopt_compression or KHR_draco_mesh_compression. Positions are rounded to the lattice of the level of detail. By default, files are not compressed",
-    "schema": {"enum": ["none", "meshopt", "draco"]}}
+    "schema": {"enum": ["none", "meshopt", "draco"]}},
+  "lod": {"name": "lod", "in": "query",
+    "description": "msft: a GLB that also holds coarser levels of detail, each with at most a quarter of the triangles of the one before, down to the base mesh, for clients of the glTF extension MSFT_lod. All levels share one texture. Other clients show the finest level",
+    "schema": {"enum": ["none", "msft"]}}
 }
 })json";
 
@@ -209,12 +220,13 @@ static constexpr ApiRoute kExportRoutes[] = {
      .path = "/api/v1/models/{id}/export.{format}",
      .handler = export_model,
      .executor = Executor::kCompute,
-     .doc = {.id = "exportModel",
-             .summary = kSummary,
-             .parameters =
-                 "triangles error bytes level kbps seconds saveData texture unit up compression",
-             .response = kMediaTypes,
-             .may_be_gzip = true}},
+     .doc =
+         {.id = "exportModel",
+          .summary = kSummary,
+          .parameters =
+              "triangles error bytes level kbps seconds saveData texture unit up compression lod",
+          .response = kMediaTypes,
+          .may_be_gzip = true}},
 };
 
 const ApiNoun kExports = {.routes = kExportRoutes, .components = kExportsComponents};

@@ -35,8 +35,8 @@ std::vector<std::string> fields_of(const Request& request) {
   return fields;
 }
 
-// Returns the method for the forwarded request. Forwards HEAD as GET; the session later omits the
-// body of the response.
+// Returns the method of the forwarded request. HEAD is forwarded as GET; this server later omits
+// the body when it responds to its own client.
 std::string method_to_ask(const Request& request) {
   const bool is_head = request.header.method() == beast::http::verb::head;
   return is_head ? "GET" : std::string(request.header.method_string());
@@ -118,7 +118,7 @@ std::vector<nlohmann::ordered_json> ask_daemons(std::span<const DaemonQuery> que
     const auto* const text = std::get_if<std::string>(&answer.body);
     return answer.status == 200 && text != nullptr ? object_in(*text) : nullptr;
   };
-  // One pass of the admission limit is enough for all queries, because only one worker waits for
+  // All queries share one pass of the admission limit, because only one worker thread waits for
   // them.
   const auto pass = pass_for(request, services);
   if (!pass) return std::vector<nlohmann::ordered_json>(queries.size());

@@ -15,15 +15,15 @@
 
 namespace vitrine::server {
 
-// Returns the address of the daemon that drives the scanner, to which the request must be
-// forwarded. Returns an empty string if that daemon cannot be reached. Returns nullopt if this
-// daemon drives the scanner, or if another daemon has already forwarded the request to this one.
+// Returns the address of the daemon that drives the scanner; the request must be forwarded there.
+// Returns an empty string if that daemon cannot be reached. Returns nullopt if this daemon drives
+// the scanner, or if another daemon has already forwarded the request to this daemon.
 std::optional<std::string> forward_address(const std::string& scanner, const Request& request,
                                            Services& services);
 
-// Forwards the request, with the caller's token, to the daemon at `address` and returns its
-// response. That daemon checks the token. Returns 503 if it does not respond in time or if too many
-// requests are being forwarded.
+// Forwards the request, with the caller's token, to the daemon at `address` and returns the
+// response of that daemon, which checks the token. Returns 503 if that daemon does not respond in
+// time or if too many requests are being forwarded.
 Response forward(const std::string& address, const Request& request, Services& services);
 
 struct DaemonQuery {
@@ -31,7 +31,7 @@ struct DaemonQuery {
 };
 
 // Sends queries to several daemons at the same time, with the caller's token. Returns one element
-// per query: the JSON object of the response, or null if there is no valid response within five
+// per query: the JSON object of the response, or null if no valid response arrives within five
 // seconds.
 std::vector<nlohmann::ordered_json> ask_daemons(std::span<const DaemonQuery> queries,
                                                 const Request& request, Services& services);

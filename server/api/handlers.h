@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares functions of the API's nouns that other files call directly: handlers that tests call,
-// and make_posters(). The handlers answer GET; the server derives the responses to HEAD,
+// Declares API functions that other files call directly: handlers that tests call, and
+// make_posters(). The handlers answer GET requests; the server derives the responses to HEAD,
 // conditional requests and range requests.
 #pragma once
 
@@ -12,8 +12,8 @@ Response show_openapi(const Request& request, Services& services);
 Response show_job_events(const Request& request, Services& services);
 Response show_asset(const Request& request, Services& services);
 
-// Puts the posters of a model into the cache, so that its first visitors do not wait for them.
-// Ignores errors: the first request for a poster tries again and reports the error.
-void make_posters(const ModelId& id, Services& services);
+// Puts the posters of a model into the cache, so that its first visitors do not wait for them. If a
+// poster cannot be made, makes the others and fails; the first request for it tries again.
+Expected<void> make_posters(const ModelId& id, Services& services);
 
 }  // namespace vitrine::server

@@ -83,7 +83,7 @@ static Response show_livez(const Request&, Services&) {
 // the daemon starts or drains, and if it cannot read the catalogue. A nearly full disk is only
 // reported: the daemon can still serve every model.
 static Response show_readyz(const Request& request, Services& services) {
-  if (!services.ready.load()) return problem(503, "", request.id);
+  if (!services.is_ready.load()) return problem(503, "", request.id);
   if (const auto revision = services.catalogue.revision(); !revision) {
     services.errors.event(Severity::kError, revision.error().message);
     return problem(503, "", request.id);

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves IIIF manifests of models (Presentation 3.0 and 4.0), and a collection of all of them. In a
-// manifest of version 3, a canvas shows the model's poster, which every IIIF viewer can display,
-// and the model itself is a `rendering`. In a manifest of version 4, a scene shows the model.
+// Serves IIIF manifests of models (Presentation 3.0 and 4.0), and a collection that lists all
+// models. In a manifest of version 3, a canvas shows the model's poster, which every IIIF viewer
+// can display, and the model itself is a `rendering`. In a manifest of version 4, a scene shows the
+// model.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "server/api/handlers.h"
-#include "server/api/links.h"
 #include "server/api/path_parameters.h"
 #include "server/api/published.h"
+#include "server/metadata/rights.h"
+#include "server/records/collection_page.h"
+#include "server/records/links.h"
+#include "server/records/record_format.h"
 
 namespace vitrine::server {
 namespace {
@@ -33,13 +38,20 @@ Json in_no_language(std::string_view text) {
   return {{"none", {text}}};
 }
 
+constexpr std::pair<const char*, const char*> kIdentifiers[] = {
+    {"identifier", "Inventory number"}, {"persistent_identifier", "Persistent identifier"}};
+
 Json metadata(const ModelRecord& model) {
+  const DescribedModel described(model, "");
   Json all = Json::array();
   const auto add = [&](std::string_view label, std::string_view value) {
     if (!value.empty())
       all.push_back({{"label", in_english(label)}, {"value", in_no_language(value)}});
   };
   add("Creator", model.creator);
+  for (const auto& [name, label] : kIdentifiers)
+    add(label, described.text(name));
+  add("DOI", described.doi_url());
   add("Licence", model.licence);
   add("Unit", model.unit);
   add("Triangles", std::to_string(model.faces));
@@ -105,7 +117,23 @@ Json provider(const std::string& publisher, const std::string& origin) {
                                                   {"format", "text/html"}}})}}});
 }
 
-// Returns a manifest without its items: what versions 3 and 4 have in common.
+// Returns links to the manifest of the model's file, and to its records.
+Json see_also(const std::string& model) {
+  Json all = Json::array({{{"id", model + "/manifest"},
+                           {"type", "Dataset"},
+                           {"label", in_english("Levels of detail, sizes and errors")},
+                           {"format", "application/json"}}});
+  for (const RecordFormat* format : kRecordFormats) {
+    all.push_back({{"id", fmt::format("{}/{}", model, format->file)},
+                   {"type", "Dataset"},
+                   {"label", in_english(format->label)},
+                   {"format", "application/xml"},
+                   {"profile", format->xml_namespace}});
+  }
+  return all;
+}
+
+// Returns the parts that manifests of versions 3 and 4 have in common: everything except the items.
 Json description(const ModelRecord& record, const std::string& origin, std::string_view context,
                  const std::string& self) {
   const std::string id = record.id.to_string();
@@ -130,14 +158,11 @@ Json description(const ModelRecord& record, const std::string& origin, std::stri
                                    {"label", in_english("Interactive viewer")},
                                    {"format", "text/html"}}});
   json["rendering"] = renderings(model);
-  json["seeAlso"] = Json::array({{{"id", model + "/manifest"},
-                                  {"type", "Dataset"},
-                                  {"label", in_english("Levels of detail, sizes and errors")},
-                                  {"format", "application/json"}}});
+  json["seeAlso"] = see_also(model);
   return json;
 }
 
-// Returns a scene that shows the model. The GLB's unit is the metre if the model's unit is known.
+// Returns a scene that shows the model as GLB, which is in metres if the model's unit is known.
 Json scene(const std::string& self, const std::string& model, const ModelRecord& record) {
   const std::string id = self + "/scene";
   Json annotation = {{"id", id + "/model/annotation"},
@@ -159,12 +184,31 @@ Json scene(const std::string& self, const std::string& model, const ModelRecord&
   return json;
 }
 
-Json collection(const std::vector<ModelRecord>& models, const std::string& origin) {
-  Json json = {{"@context", kContext3},
-               {"id", origin + "/api/v1/iiif/collection.json"},
-               {"type", "Collection"},
-               {"label", in_english("All objects")},
-               {"items", Json::array()}};
+std::string collection_id(const std::string& origin, const std::optional<ModelId>& cursor = {}) {
+  return origin + "/api/v1/iiif/collection.json" + (cursor ? "?cursor=" + cursor->to_string() : "");
+}
+
+Json collection(const std::string& id, std::string_view label) {
+  return {{"@context", kContext3},
+          {"id", id},
+          {"type", "Collection"},
+          {"label", in_english(label)},
+          {"items", Json::array()}};
+}
+
+// Returns a collection with one sub-collection per page, because Presentation 3.0 has no paging.
+Json collection_of_pages(const std::vector<ModelId>& cursors, const std::string& origin) {
+  Json json = collection(collection_id(origin), "All objects");
+  for (const ModelId& cursor : cursors) {
+    const std::size_t part = json["items"].size() + 1;
+    json["items"].push_back({{"id", collection_id(origin, cursor)},
+                             {"type", "Collection"},
+                             {"label", in_english(fmt::format("All objects, part {}", part))}});
+  }
+  return json;
+}
+
+void add_manifests(Json& json, const std::vector<ModelRecord>& models, const std::string& origin) {
   for (const ModelRecord& record : models) {
     const std::string id = record.id.to_string();
     json["items"].push_back(
@@ -173,7 +217,32 @@ Json collection(const std::vector<ModelRecord>& models, const std::string& origi
          {"label", label_of(record)},
          {"thumbnail", thumbnails(fmt::format("{}/api/v1/models/{}", origin, id))}});
   }
+}
+
+Json collection_of_models(const std::vector<ModelRecord>& models,
+                          const std::optional<ModelId>& cursor, const std::string& origin) {
+  Json json =
+      collection(collection_id(origin, cursor), cursor ? "A part of all objects" : "All objects");
+  if (cursor)
+    json["partOf"] = Json::array({{{"id", collection_id(origin)}, {"type", "Collection"}}});
+  add_manifests(json, models, origin);
   return json;
+}
+
+// Returns the IIIF collection of the models that belong to a collection of the museum.
+Response named_collection(const std::string& name, const Request& request, Services& services) {
+  const auto models = list_public({.facets = {{"collection", name}}}, services);
+  if (!models) return internal_error(models.error(), request, services);
+  if (models->empty()) return problem(404, "there is no such collection", request.id);
+  const std::string origin = origin_of(request, services);
+  Json json = collection(origin + collection_iiif_path(name), "");
+  json["label"] = in_no_language(name);
+  json["homepage"] = Json::array({{{"id", origin + collection_path(name)},
+                                   {"type", "Text"},
+                                   {"label", in_no_language(name)},
+                                   {"format", "text/html"}}});
+  add_manifests(json, *models, origin);
+  return iiif_answer(json);
 }
 
 }  // namespace
@@ -199,9 +268,17 @@ static Response show_iiif_scene(const Request& request, Services& services) {
 }
 
 static Response show_iiif_collection(const Request& request, Services& services) {
-  const auto models = all_public(services);
-  if (!models) return internal_error(models.error(), request, services);
-  return iiif_answer(collection(*models, origin_of(request, services)));
+  const auto query = Query::parse(request.query);
+  if (const auto name = query ? query->get("collection") : std::nullopt;
+      name && !query->get("cursor"))
+    return named_collection(std::string(*name), request, services);
+  const std::string origin = origin_of(request, services);
+  return in_pages(
+      request, services,
+      [&](const auto& cursors) { return iiif_answer(collection_of_pages(cursors, origin)); },
+      [&](const auto& models, const auto& cursor) {
+        return iiif_answer(collection_of_models(models, cursor, origin));
+      });
 }
 
 static Response redirect_to_iiif(const Request& request, Services& services) {
@@ -250,8 +327,11 @@ static constexpr ApiRoute kIiifRoutes[] = {
      .handler = show_iiif_collection,
      .executor = Executor::kWorker,
      .doc = {.id = "getIiifCollection",
-             .summary = "Returns an IIIF Presentation 3.0 collection of all published models, "
-                        "newest first; at most 10,000.",
+             .summary =
+                 "Returns an IIIF Presentation 3.0 collection of all published models, "
+                 "newest first, or of a collection. Lists collections of 10,000 models each if all "
+                 "are more.",
+             .parameters = "cursor collection",
              .response = "IiifCollection",
              .may_be_gzip = true}},
     {.method = Method::kGet,
@@ -260,6 +340,9 @@ static constexpr ApiRoute kIiifRoutes[] = {
      .executor = Executor::kInline},
 };
 
-const ApiNoun kIiif = {.routes = kIiifRoutes, .components = kIiifComponents};
+static constexpr ApiTag kIiifTags[] = {
+    {.name = "iiif", .description = "Manifests of IIIF Presentation 3 and 4."}};
+
+const ApiNoun kIiif = {.routes = kIiifRoutes, .components = kIiifComponents, .tags = kIiifTags};
 
 }  // namespace vitrine::server

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "server/api/published.h"
 #include "server/messages/http_header.h"
 #include "server/messages/timestamp.h"
+#include "server/store/text.h"
 
 namespace vitrine::server {
 namespace {
@@ -36,14 +36,6 @@ Json number_or_null(const auto& number) {
   return number ? Json(*number) : Json(nullptr);
 }
 
-Json lines_json(const std::string& text) {
-  Json lines = Json::array();
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    lines.push_back(line);
-  return lines;
-}
-
 std::string_view state_of_scan(const JobRecord& job) {
   if (job.state == JobState::kQueued) return "waiting";
   if (job.state != JobState::kRunning) return kJobStates[static_cast<std::size_t>(job.state)];
@@ -59,8 +51,8 @@ Json rows_json(const std::optional<ScannedRows>& rows) {
   return {{"empty", rows->empty}, {"saturated", rows->saturated}, {"doubled", rows->doubled}};
 }
 
-// Returns the state of a laser or a motor, and when it entered that state. The time is null if the
-// state has never been known.
+// Returns the state of a laser or a motor, and the time at which it entered that state. The time is
+// null if the state has never been known.
 Json power_json(std::string_view state, acquisition::BoardPower::Clock::time_point since) {
   const auto milliseconds =
       std::chrono::duration_cast<std::chrono::milliseconds>(since.time_since_epoch()).count();
@@ -90,7 +82,7 @@ Json job_json(const JobStatus& job) {
           {"scanner", text_or_null(record.scanner)},
           {"scan", id_or_null(record.scan)},
           {"model", id_or_null(record.model)},
-          {"repairs", lines_json(record.repairs)},
+          {"repairs", lines_of(record.repairs)},
           {"created", timestamp(record.created)},
           {"ended", record.ended == 0 ? Json(nullptr) : Json(timestamp(record.ended))}};
 }
@@ -154,7 +146,7 @@ Response refused(const Error& error, const Request& request, Services& services)
   if (error.code == ErrorCode::kState) return problem(409, error.message, request.id);
   if (error.code == ErrorCode::kBadInput) return problem(422, error.message, request.id);
   if (error.code != ErrorCode::kLimit) return internal_error(error, request, services);
-  tell_operator(error, request, services);
+  tell_operator(error, request.id, services);
   return problem(507, error.message, request.id);
 }
 

@@ -38,8 +38,9 @@ Response refused_job(const Error& error, const Request& request, Services& servi
 // Returns a 422 response that lists the faults of the body.
 Response invalid(const FieldFaults& faults, const Request& request);
 
-// Returns the request's Idempotency-Key combined with its caller, and a hash of the request's path
-// and body. Returns nullopt if the request has no such header. The error is the response to send.
+// Returns the idempotency key of a request: its Idempotency-Key header combined with its caller,
+// and a hash of its path and body. Returns nullopt if there is no such header. The error is the
+// response to send.
 tl::expected<std::optional<IdempotencyKey>, Response> idempotency_key(const Request& request);
 
 // Parses the query of the request. Fails if a parameter is not in `known`. The error is the
@@ -55,13 +56,13 @@ tl::expected<PageOf<Id>, std::vector<ParameterFault>> read_page(const Query& que
 template <class Id>
 tl::expected<PageOf<Id>, Response> read_page(const Request& request);
 
-// If `cursor`, the last ID of this page, is set, adds a Link field with the next page of the
-// requested list (RFC 8288).
+// Adds a Link field with the URL of the list's next page (RFC 8288). `cursor` is the last ID on
+// this page, or nullopt if no page follows.
 void link_next(const std::optional<std::string>& cursor, const Request& request,
                Response& response);
 
-// Returns one page of a list as JSON: the items under `name`, and the cursor of the next page, or
-// null, under "next". Also adds a Link field with the next page.
+// Returns one page of a list as JSON: the items under `name`, and under "next" the cursor of the
+// next page or null. Also adds a Link field with the URL of the next page.
 Response list_answer(std::string_view name, nlohmann::ordered_json items,
                      const std::optional<std::string>& cursor, const Request& request);
 

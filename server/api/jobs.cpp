@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "server/api/forward.h"
@@ -21,20 +22,24 @@ std::string event_id(const JobStatus& job) {
                                      : fmt::format("{}-{:.3f}", state, job.record.progress);
 }
 
-// Whether the client has already received the last event of the job. Such a client has reconnected
-// only because its stream ended.
+// Whether the client already received the job's last event. Such a client has reconnected only
+// because the event stream ended.
 bool knows_the_end(const JobStatus& job, const Request& request) {
   return has_ended(job.record.state) && request.header["Last-Event-ID"] == event_id(job);
 }
 
-// Sends an event for each change of a job, until the job ends.
+// Sends an event for each change of a job, until the job ends or is hidden from the client.
 class JobEvents final : public EventSource {
  public:
-  JobEvents(JobStatus first, std::shared_ptr<const JobRun> run, bool with_reasons)
-      : newest_(std::move(first)), run_(std::move(run)), with_reasons_(with_reasons) {}
+  JobEvents(JobStatus first, std::shared_ptr<const JobRun> run, bool is_for_visitor,
+            Services& services)
+      : newest_(std::move(first)),
+        run_(std::move(run)),
+        is_for_visitor_(is_for_visitor),
+        services_(services) {}
 
   std::optional<Event> next() override {
-    if (run_) newest_ = with_reasons_ ? run_->status() : without_reasons(run_->status());
+    if (run_) newest_ = is_for_visitor_ ? without_reasons(run_->status()) : run_->status();
     if (told_ == newest_) return std::nullopt;
     told_ = newest_;
     return Event{"job",
@@ -43,11 +48,35 @@ class JobEvents final : public EventSource {
   }
   bool ended() const override { return told_ && has_ended(told_->record.state); }
 
+  // Reads the catalogue only if a model or the job's state has changed since the last check. If the
+  // catalogue cannot be read, the job counts as visible, and the next call checks it again.
+  bool may_continue() override {
+    if (!is_for_visitor_ || !run_) return true;
+    const auto revision = services_.models.revision();
+    if (!revision) return true;
+    const JobRecord job = run_->job();
+    const Checked now{*revision, job.state};
+    const std::scoped_lock lock(mutex_);
+    if (checked_ == now) return true;
+    const auto visible = check_visibility(job, services_.scans, services_.models);
+    if (visible && *visible) checked_ = now;
+    return !visible || *visible;
+  }
+
  private:
+  struct Checked {
+    ModelsRevision revision;
+    JobState state;
+    bool operator==(const Checked&) const = default;
+  };
+
   JobStatus newest_;
   std::optional<JobStatus> told_;
   const std::shared_ptr<const JobRun> run_;
-  const bool with_reasons_;
+  const bool is_for_visitor_;
+  Services& services_;
+  std::mutex mutex_;                // guards the member below
+  std::optional<Checked> checked_;  // revision and state at which the job was last visible
 };
 
 // Calls `answer(job)` with the job that the request names. Returns 401 or 404 if there is no job
@@ -114,8 +143,8 @@ static Response resume_job(const Request& request, Services& services) {
 }
 
 Response show_job_events(const Request& request, Services& services) {
-  // Starts to watch the job before it reads the job's state. Otherwise a change between the two
-  // steps would be missed.
+  // Starts to watch the job before it reads the job's state. In the opposite order, a change
+  // between the two steps would be missed.
   const auto run = services.scans.jobs().watch(id_in<JobId>(request));
   if (!run) return internal_error(run.error(), request, services);
   return with_job(request, services, [&](const JobStatus& job) {
@@ -125,7 +154,7 @@ Response show_job_events(const Request& request, Services& services) {
       return response;
     }
     response.type = "text/event-stream";
-    response.events = std::make_shared<JobEvents>(job, *run, request.caller.has_value());
+    response.events = std::make_shared<JobEvents>(job, *run, !request.caller, services);
     return response;
   });
 }
@@ -192,6 +221,9 @@ static constexpr ApiRoute kJobRoutes[] = {
              .response = "text/event-stream"}},
 };
 
-const ApiNoun kJobs = {.routes = kJobRoutes, .components = kJobsComponents};
+static constexpr ApiTag kJobsTags[] = {
+    {.name = "jobs", .description = "Work in the background, such as a build or a scan."}};
+
+const ApiNoun kJobs = {.routes = kJobRoutes, .components = kJobsComponents, .tags = kJobsTags};
 
 }  // namespace vitrine::server

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/api/model_json.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "server/messages/response.h"
 #include "server/messages/timestamp.h"
+#include "server/records/citation.h"
 #include "server/store/change.h"
+#include "server/store/text.h"
 
 namespace vitrine::server {
 namespace {
@@ -18,7 +23,7 @@ std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json model(const ModelRecord& record, bool counts_visits) {
+Json model(const ModelRecord& record, const ModelView& view) {
   const std::string self = "/api/v1/models/" + record.id.to_string();
   Json json = {{"id", record.id.to_string()},
                {"state", record.state == ModelState::kPublished ? "published" : "draft"},
@@ -39,6 +44,7 @@ Json model(const ModelRecord& record, bool counts_visits) {
                 {{"count", record.textures.count},
                  {"largest_side", record.textures.largest_side},
                  {"bytes", record.textures.bytes}}},
+               {"presentation", to_json(record.presentation)},
                {"links",
                 {{"self", self},
                  {"page", "/models/" + record.id.to_string()},
@@ -47,7 +53,8 @@ Json model(const ModelRecord& record, bool counts_visits) {
                  {"file", self + "/file.pmesh"},
                  {"stream", self + "/stream"},
                  {"poster", self + "/poster.png"}}}};
-  if (counts_visits && record.state == ModelState::kPublished)
+  if (view.has_token) json["repairs"] = lines_of(record.repairs);
+  if (view.counts_visits && record.state == ModelState::kPublished)
     json["links"]["visits"] = self + "/visits";
   for (const auto& [name, text] : record.more)
     json[name] = text;
@@ -62,15 +69,26 @@ Json lattice(const Lattice& grid) {
   return {{"origin", vector(grid.origin)}, {"step", grid.step}, {"bits", grid.bits}};
 }
 
-// Returns the bounding box of the coded positions of all levels, clamped to the lattice.
-Json bounding_box(const Manifest& manifest) {
-  const std::int32_t top = (1 << manifest.lattice.bits) - 1;
-  const auto inside = [&](const Vec3i& p) -> Vec3i {
-    return {std::clamp(p.x, 0, top), std::clamp(p.y, 0, top), std::clamp(p.z, 0, top)};
-  };
-  const LatticeBox& box = manifest.tree.nodes[0].box;
-  return {{"min", vector(manifest.lattice.to_model(inside(box.low)))},
-          {"max", vector(manifest.lattice.to_model(inside(box.high)))}};
+Json corners(const Bounds& box) {
+  return {{"min", vector(box.low)}, {"max", vector(box.high)}};
+}
+
+// Rounds to five significant digits, because no scan is accurate enough for more digits.
+double rounded(double value) {
+  return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr);
+}
+
+Json dimensions(const std::optional<Dimensions>& size) {
+  if (!size) return nullptr;
+  return {{"width", size->width},
+          {"height", size->height},
+          {"depth", size->depth},
+          {"unit", size->unit}};
+}
+
+Json citation(const DescribedModel& model) {
+  const Citations all = citations_of(model);
+  return {{"apa", all.apa}, {"chicago", all.chicago}, {"mla", all.mla}};
 }
 
 Json levels(const Manifest& manifest) {
@@ -112,7 +130,8 @@ Json place(std::uint64_t offset, std::uint64_t length, const Sha256& sha256) {
   return {{"offset", offset}, {"length", length}, {"sha256", to_hex(sha256)}};
 }
 
-// Returns the originals' blocks, or null if the model has no originals or hides them.
+// Returns the places of the original materials and pictures in the model's file. Returns null if
+// the model has no originals or hides them.
 Json originals(const Manifest& manifest) {
   Json source, pictures = Json::array();
   for (const OptionalBlock& block : manifest.optional_blocks) {
@@ -147,7 +166,7 @@ Json texture(const TextureInfo& info) {
 }
 
 // Returns the expected result of a detail request. The member `seconds` is the loading time at the
-// client's bandwidth, or null if the request does not state a bandwidth.
+// client's bandwidth, or null if the bandwidth is unknown.
 Json expectation(const DetailRequest& detail, const Manifest& manifest) {
   const DetailForecast forecast = forecast_of(detail.want, manifest);
   const double kilobits = static_cast<double>(forecast.bytes) * 8 / 1000;
@@ -160,19 +179,58 @@ Json expectation(const DetailRequest& detail, const Manifest& manifest) {
 
 }  // namespace
 
-std::string model_json(const ModelRecord& record, bool counts_visits) {
-  return dump(model(record, counts_visits));
+Bounds bounding_box(const Manifest& manifest) {
+  const std::int32_t top = (1 << manifest.lattice.bits) - 1;
+  const auto inside = [&](const Vec3i& p) -> Vec3i {
+    return {std::clamp(p.x, 0, top), std::clamp(p.y, 0, top), std::clamp(p.z, 0, top)};
+  };
+  const LatticeBox& box = manifest.tree.nodes[0].box;
+  return {manifest.lattice.to_model(inside(box.low)), manifest.lattice.to_model(inside(box.high))};
 }
 
-std::string model_tag(const ModelRecord& record, bool counts_visits) {
-  return entity_tag(std::to_string(record.version) + model_json(record, counts_visits));
+Bounds presented_box(const ModelRecord& record, const Manifest& manifest) {
+  return presented_box(record.presentation, bounding_box(manifest));
 }
 
-std::string model_page_json(const ModelPage& page, bool whole, bool counts_visits) {
+std::string model_json(const ModelRecord& record, const ModelView& view) {
+  return dump(model(record, view));
+}
+
+std::string model_json(const ModelRecord& record, const Manifest& manifest, const ModelView& view) {
+  Json json = model(record, view);
+  json["dimensions"] = dimensions(dimensions_of(record, manifest));
+  json["citation"] = citation({record, view.origin});
+  return dump(json);
+}
+
+std::optional<Dimensions> dimensions_of(const ModelRecord& record, const Manifest& manifest) {
+  if (record.unit.empty()) return std::nullopt;
+  const Bounds box = presented_box(record, manifest);
+  return Dimensions{.width = rounded(box.high.x - box.low.x),
+                    .height = rounded(box.high.y - box.low.y),
+                    .depth = rounded(box.high.z - box.low.z),
+                    .unit = record.unit};
+}
+
+std::string model_tag(const ModelRecord& record, const ModelView& view) {
+  return entity_tag(std::to_string(record.version) + model_json(record, view) +
+                    dump(citation({record, view.public_url})));
+}
+
+std::string model_page_json(const ModelPage& page, const ModelView& view) {
   Json json = {{"models", Json::array()}, {"next", nullptr}};
   for (const ModelRecord& record : page.models)
-    json["models"].push_back(model(whole ? record : public_view(record), counts_visits));
+    json["models"].push_back(model(view.has_token ? record : public_view(record), view));
   if (page.next) json["next"] = page.next->to_string();
+  return dump(json);
+}
+
+std::string facets_json(const Facets& facets) {
+  Json json = {{"models", facets.models}, {"facets", Json::object()}};
+  for (const std::string_view name : kFacetNames)
+    json["facets"][name] = Json::array();
+  for (const FacetCount& count : facets.counts)
+    json["facets"][count.name].push_back({{"value", count.value}, {"models", count.models}});
   return dump(json);
 }
 
@@ -188,7 +246,8 @@ std::string manifest_json(const PublishedModel& published,
                {"coloured", manifest.has(Semantic::kColour)},
                {"boundary_loops", manifest.loops},
                {"lattice", lattice(manifest.lattice)},
-               {"bounding_box", bounding_box(manifest)},
+               {"bounding_box", corners(bounding_box(manifest))},
+               {"presentation", to_json(published.record().presentation)},
                {"levels", levels(manifest)},
                {"regions", manifest.tree.leaves()},
                {"adjacency", manifest.adjacency},

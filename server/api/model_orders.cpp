@@ -55,11 +55,14 @@ Response accepted(const JobRecord& job) {
   return response;
 }
 
-// Whether an If-Match list matches the model. Compares with the entity tags of both the full and
-// the public view: a client may read the model without a token and then change the model with one.
-bool matches(std::string_view list, const ModelRecord& model, bool counts_visits) {
-  return matches_any(list, model_tag(model, counts_visits)) ||
-         matches_any(list, model_tag(public_view(model), counts_visits));
+// Whether an If-Match list matches the model. Accepts the entity tags of both the full and the
+// public view, because a client may read the model without a token and then change it with a token.
+bool matches(std::string_view list, const ModelRecord& model, const ModelView& view) {
+  ModelView full = view, open = view;
+  full.has_token = true;
+  open.has_token = false;
+  return matches_any(list, model_tag(model, full)) ||
+         matches_any(list, model_tag(public_view(model), open));
 }
 
 Response model_has_changed(const Request& request) {
@@ -73,8 +76,7 @@ std::optional<Response> refuse_state(const ModelRecord& model, const Request& re
   const auto wanted = request.header.find(beast::http::field::if_match);
   if (wanted == request.header.end()) return std::nullopt;
   const auto list = wanted->value();
-  if (matches({list.data(), list.size()}, model, services.settings.get().counts_visits))
-    return std::nullopt;
+  if (matches({list.data(), list.size()}, model, view_for(request, services))) return std::nullopt;
   return model_has_changed(request);
 }
 
@@ -84,7 +86,7 @@ const Sha256& public_file(const ModelRecord& model) {
 }
 
 // Returns the response to a failed change or removal: 412 if the request has If-Match and another
-// request has changed the model since the check, otherwise refused().
+// request has changed the model since If-Match was checked. Otherwise calls refused().
 Response refused_change(const Error& error, const ModelRecord& before, const Request& request,
                         Services& services) {
   const auto now = services.catalogue.find(before.id);
@@ -122,8 +124,8 @@ void read_accuracy(Fields& fields, const nlohmann::json& body, std::optional<dou
   fields.real("accuracy", 0, kMostAccuracy, accuracy);
 }
 
-// Reads `public_max_level`, the finest public level. Null makes all levels public. A number beyond
-// the finest level is replaced by the finest level that the model has now.
+// Reads `public_max_level`, the finest public level. Null makes all levels public, and so does a
+// number above the model's finest level.
 void read_public_level(Fields& fields, const nlohmann::json& body,
                        std::optional<PublicPart>& part) {
   constexpr int kMostLevels = 255;
@@ -135,6 +137,14 @@ void read_public_level(Fields& fields, const nlohmann::json& body,
   part = PublicPart{.max_level = static_cast<std::uint32_t>(level)};
 }
 
+void read_presentation_in(Fields& fields, const nlohmann::json& body, Presentation& presentation) {
+  const auto found = body.find("presentation");
+  if (found == body.end()) return;
+  read_presentation(*found, presentation, [&](const std::string& field, const std::string& wanted) {
+    fields.fault(field.empty() ? "presentation" : "presentation." + field, wanted);
+  });
+}
+
 // Returns the record with the changes in the body applied. Texts may be members of the body itself,
 // as in responses to GET, or of its member "metadata", as in requests with POST.
 tl::expected<ModelRecord, FieldFaults> changed(const ModelRecord& before,
@@ -143,7 +153,7 @@ tl::expected<ModelRecord, FieldFaults> changed(const ModelRecord& before,
   Fields fields(body, "", faults);
   ModelRecord model = before;
   std::vector<std::string_view> known = metadata_names();
-  known.insert(known.end(), {"metadata", "unit", "accuracy", "public_max_level"});
+  known.insert(known.end(), {"metadata", "unit", "accuracy", "public_max_level", "presentation"});
   fields.only(known);
   ModelMetadata texts{.title = model.title,
                       .creator = model.creator,
@@ -160,6 +170,7 @@ tl::expected<ModelRecord, FieldFaults> changed(const ModelRecord& before,
   read_unit(fields, body, model.unit);
   read_accuracy(fields, body, model.accuracy);
   read_public_level(fields, body, model.public_part);
+  read_presentation_in(fields, body, model.presentation);
   return order_or_faults(std::move(model), std::move(faults));
 }
 
@@ -173,7 +184,7 @@ static Response make_model(const Request& request, Services& services) {
   auto& jobs = services.scans.jobs();
   const auto begun = jobs.begun_by(*once);
   if (!begun) return refused_job(begun.error(), request, services);
-  // Looks for the idempotency key before it calls check(): if the job has already begun, its upload
+  // Looks for the idempotency key before it calls check(). If the job has already begun, its upload
   // may no longer exist, and check() would fail.
   if (*begun) return accepted(**begun);
   const auto held = services.uploads.hold();
@@ -185,20 +196,29 @@ static Response make_model(const Request& request, Services& services) {
   return job ? accepted(*job) : refused_job(job.error(), request, services);
 }
 
+static std::optional<Opening> model_to_change(const Request& request, Services& services) {
+  return opening_of(id_in<ModelId>(request), /*has_token=*/true, services.models);
+}
+
 static Response change_model(const Request& request, Services& services) {
   return with_record(request, services, [&](const ModelRecord& before) {
     const auto wanted = changed(before, request.body);
     if (!wanted) return invalid(wanted.error(), request);
+    // A change keeps the geometry, so the manifest from before serves for the dimensions.
+    const FoundModel shown = find_visible(before.id, /*has_token=*/true, services.models).model;
     const auto model = change(services.store, services.catalogue, *wanted, &services.quota);
     if (!model) return refused_change(model.error(), before, request, services);
     services.models.refresh();
     services.collector.hurry();
-    if (public_file(before) != public_file(*model)) make_posters(model->id, services);
+    const bool looks_new =
+        public_file(before) != public_file(*model) || before.presentation != model->presentation;
+    if (looks_new && services.order_posters) services.order_posters(model->id);
     Response response;
     response.type = "application/json";
-    const bool counts_visits = services.settings.get().counts_visits;
-    response.body = model_json(*model, counts_visits);
-    response.etag = model_tag(*model, counts_visits);
+    const ModelView view = view_for(request, services);
+    response.body =
+        shown && *shown ? model_json(*model, (*shown)->manifest(), view) : model_json(*model, view);
+    response.etag = model_tag(*model, view);
     return response;
   });
 }
@@ -228,7 +248,12 @@ static constexpr std::string_view kModelOrdersComponents = R"json({
     "title": {"type": "string"}, "creator": {"type": "string"}, "rights": {"type": "string"}, "licence": {"type": "string"},
     "contributor": {"type": "string"}, "coverage": {"type": "string"}, "date": {"type": "string"}, "description": {"type": "string"},
     "identifier": {"type": "string"}, "language": {"type": "string"}, "publisher": {"type": "string"}, "relation": {"type": "string"},
-    "source": {"type": "string"}, "subject": {"type": "string"}, "type": {"type": "string"}}},
+    "source": {"type": "string"}, "subject": {"type": "string", "description": "Subjects, materials, periods and so on are separated by semicolons"}, "type": {"type": "string"},
+    "material": {"type": "string"}, "technique": {"type": "string"}, "period": {"type": "string"}, "place": {"type": "string"},
+    "collection": {"type": "string"}, "provenance": {"type": "string"},
+    "rights_statement": {"type": "string", "description": "The URI of a statement of RightsStatements.org"},
+    "persistent_identifier": {"type": "string", "description": "A URI"}, "doi": {"type": "string", "description": "A DOI without a resolver"},
+    "scan_device": {"type": "string"}, "scan_calibration": {"type": "string"}, "scan_date": {"type": "string"}, "scan_software": {"type": "string"}}},
   "ModelOrder": {"type": "object", "required": ["upload"], "additionalProperties": false, "properties": {
     "upload": {"$ref": "#/components/schemas/Id"}, "metadata": {"$ref": "#/components/schemas/Metadata"},
     "publish": {"type": "boolean", "default": false, "description": "Whether to publish the model; otherwise it stays a draft"},
@@ -236,12 +261,15 @@ static constexpr std::string_view kModelOrdersComponents = R"json({
     "webhook": {"$ref": "#/components/schemas/Webhook"},
     "bits": {"anyOf": [{"const": "auto"}, {"const": 0}, {"type": "integer", "minimum": 10, "maximum": 16}], "default": "auto"},
     "placement": {"enum": ["midpoint", "pyramid"]}, "unit": {"enum": ["mm", "cm", "m", "in"], "description": "Unit of the coordinates if the file states none"},
-    "up": {"enum": ["y", "z"], "default": "y"}}},
+    "up": {"enum": ["y", "z"], "default": "y"},
+    "repairs": {"type": "array", "items": {"type": "string"},
+      "description": "What the client's build of an uploaded .pmesh file changed or left out, in at most 16,384 bytes; ignored for a mesh, which the server builds"}}},
   "ModelChange": {"type": "object", "unevaluatedProperties": false, "allOf": [{"$ref": "#/components/schemas/MetadataTexts"}],
     "description": "Members not given keep their values", "properties": {
     "metadata": {"$ref": "#/components/schemas/Metadata"}, "unit": {"enum": ["", "mm", "cm", "m", "in"]},
     "accuracy": {"type": ["number", "null"], "minimum": 0, "description": "Accuracy of the scan in the model's unit"},
-    "public_max_level": {"type": ["integer", "null"], "minimum": 0, "maximum": 255, "description": "The finest level that visitors can load; null for all levels"}}}
+    "public_max_level": {"type": ["integer", "null"], "minimum": 0, "maximum": 255, "description": "The finest level that visitors can load; null for all levels"},
+    "presentation": {"anyOf": [{"$ref": "#/components/schemas/Presentation"}, {"type": "null"}], "description": "Null restores the presentation of the file"}}}
 }
 })json";
 
@@ -263,8 +291,10 @@ static constexpr ApiRoute kModelOrderRoutes[] = {
      .handler = change_model,
      .executor = Executor::kDisk,
      .role = Role::kOperator,
+     .opens = model_to_change,
      .doc = {.id = "changeModel",
-             .summary = "Changes a model's metadata, unit, accuracy or finest public level.",
+             .summary =
+                 "Changes a model's metadata, unit, accuracy, finest public level or presentation.",
              .parameters = "ifMatch",
              .request = "ModelChange",
              .response = "Model"}},

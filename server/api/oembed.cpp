@@ -8,9 +8,9 @@
 #include "codec/core/html.h"
 #include "codec/core/parse_number.h"
 #include "server/api/handlers.h"
-#include "server/api/links.h"
 #include "server/api/published.h"
 #include "server/messages/query.h"
+#include "server/records/links.h"
 
 namespace vitrine::server {
 namespace {
@@ -19,8 +19,8 @@ struct Room {
   std::uint32_t width = 640, height = 480;
 };
 
-// Reduces `room`, the size of the embedded frame, to `maxwidth` and `maxheight` of the query.
-// Returns the fault if one of these parameters is invalid, else nullopt.
+// Limits `room`, the size of the embedded frame, to `maxwidth` and `maxheight` of the query. If one
+// of these parameters is invalid, returns its fault.
 std::optional<ParameterFault> read_room(const Query& query, Room& room) {
   for (const auto& [name, side] :
        {std::pair("maxwidth", &room.width), std::pair("maxheight", &room.height)}) {
@@ -55,7 +55,7 @@ nlohmann::ordered_json description(const ModelRecord& model, const std::string& 
                                  {"height", room.height}};
   json["html"] = fmt::format(
       "<iframe src=\"{}\" width=\"{}\" height=\"{}\" title=\"{}\" style=\"border:0\" "
-      "allow=\"fullscreen\" loading=\"lazy\"></iframe>",
+      "allow=\"fullscreen; web-share; xr-spatial-tracking\" loading=\"lazy\"></iframe>",
       page, room.width, room.height, escape_html(model.title));
   if (!model.creator.empty()) json["author_name"] = model.creator;
   if (std::min(room.width, room.height) >= kThumbnailWidth) {
@@ -67,6 +67,13 @@ nlohmann::ordered_json description(const ModelRecord& model, const std::string& 
 }
 
 }  // namespace
+
+static std::optional<Opening> model_at_url(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  const auto url = query ? query->get("url") : std::nullopt;
+  const auto id = url ? model_of(*url, origin_of(request, services)) : std::nullopt;
+  return id ? opening_of(*id, /*has_token=*/false, services.models) : std::nullopt;
+}
 
 static Response show_oembed(const Request& request, Services& services) {
   const auto query = Query::parse(request.query);
@@ -111,6 +118,7 @@ static constexpr ApiRoute kOembedRoutes[] = {
      .path = "/api/v1/oembed",
      .handler = show_oembed,
      .executor = Executor::kWorker,
+     .opens = model_at_url,
      .doc = {.id = "getOembed",
              .summary =
                  "Returns the code by which another site embeds a model's page (oEmbed 1.0).",
@@ -119,6 +127,10 @@ static constexpr ApiRoute kOembedRoutes[] = {
              .may_be_gzip = true}},
 };
 
-const ApiNoun kOembed = {.routes = kOembedRoutes, .components = kOembedComponents};
+static constexpr ApiTag kOembedTags[] = {
+    {.name = "oembed", .description = "Embedding of a model's page in other sites."}};
+
+const ApiNoun kOembed = {
+    .routes = kOembedRoutes, .components = kOembedComponents, .tags = kOembedTags};
 
 }  // namespace vitrine::server

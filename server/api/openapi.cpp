@@ -2,6 +2,7 @@
 // Generates the OpenAPI 3.1 document of /api/v1 from the routes and their RouteDoc members.
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "server/api/handlers.h"
@@ -47,7 +48,7 @@ Json ref(std::string_view kind, std::string_view name) {
 }
 
 // Returns the OpenAPI `content` object for `answer`: the name of a schema, or media types separated
-// by spaces. Generators of clients take `format: binary` for bytes.
+// by spaces. Client generators treat `format: binary` as raw bytes.
 Json content(std::string_view answer) {
   if (answer.find('/') == std::string_view::npos)
     return {{"application/json", {{"schema", ref("schemas", answer)}}}};
@@ -62,7 +63,8 @@ Json content(std::string_view answer) {
   return all;
 }
 
-// Returns the `content` object of a request's body. A change may be sent as a JSON merge patch.
+// Returns the `content` object of a request's body. PATCH requests may also send a JSON merge
+// patch.
 Json request_content(const ApiRoute& route) {
   Json all = content(route.doc.request);
   if (route.method == Method::kPatch && all.contains("application/json"))
@@ -70,7 +72,7 @@ Json request_content(const ApiRoute& route) {
   return all;
 }
 
-// Returns the parameters of a route: first those of the path, then query and header parameters.
+// Returns the parameters of a route: first the path parameters, then query and header parameters.
 Json parameters(const ApiRoute& route) {
   Json all = Json::array();
   for (std::size_t at = 0; (at = route.path.find('{', at)) != std::string_view::npos; ++at) {
@@ -85,7 +87,10 @@ Json parameters(const ApiRoute& route) {
   return all;
 }
 
-Json responses(const RouteDoc& doc) {
+// Returns the responses of a route. Every route has 400, because the HTTP server refuses malformed
+// requests. Other problems, such as 429 and 5xx, are under "default".
+Json responses(const ApiRoute& route) {
+  const RouteDoc& doc = route.doc;
   Json done = {{"description", doc.status == 202   ? "Accepted; the job continues in the background"
                                : doc.status == 101 ? "Switching protocols"
                                                    : "Success"}};
@@ -94,7 +99,12 @@ Json responses(const RouteDoc& doc) {
     done["headers"] = {{"Content-Encoding", ref("headers", "ContentEncoding")},
                        {"Vary", ref("headers", "Vary")}};
   }
-  return {{std::to_string(doc.status), done}, {"default", ref("responses", "Problem")}};
+  const Json problem = ref("responses", "Problem");
+  Json all = {{std::to_string(doc.status), done}, {"400", problem}};
+  if (route.role != Role::kNone) all.update({{"401", problem}, {"403", problem}});
+  if (route.path.find('{') != std::string_view::npos) all["404"] = problem;
+  all["default"] = problem;
+  return all;
 }
 
 // Returns the security requirements of a route. If the route is public, the token is optional; with
@@ -116,7 +126,7 @@ Json operation(const ApiRoute& route) {
     json["requestBody"] = {{"required", doc.request != "Nothing"},
                            {"content", request_content(route)}};
   }
-  json["responses"] = responses(doc);
+  json["responses"] = responses(route);
   json["security"] = security(route.role);
   if (route.role != Role::kNone) json["x-role"] = name_of(route.role);
   return json;
@@ -133,6 +143,18 @@ Json components() {
   return all;
 }
 
+Json tags() {
+  std::map<std::string_view, std::string_view> by_name;
+  for (const ApiNoun* noun : public_nouns()) {
+    for (const ApiTag& tag : noun->tags)
+      by_name.emplace(tag.name, tag.description);
+  }
+  Json all = Json::array();
+  for (const auto& [name, description] : by_name)
+    all.push_back({{"name", name}, {"description", description}});
+  return all;
+}
+
 std::string openapi_json() {
   Json json = {{"openapi", "3.1.0"},
                {"info",
@@ -141,6 +163,7 @@ std::string openapi_json() {
                  {"description", kAbout},
                  {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}}}},
                {"servers", Json::array({{{"url", "/"}}})},
+               {"tags", tags()},
                {"paths", Json::object()}};
   for (const ApiRoute& route : public_routes()) {
     if (route.doc.id.empty()) continue;
@@ -174,6 +197,9 @@ static constexpr ApiRoute kOpenapiRoutes[] = {
              .may_be_gzip = true}},
 };
 
-const ApiNoun kOpenapi = {.routes = kOpenapiRoutes, .components = kOpenapiComponents};
+static constexpr ApiTag kOpenapiTags[] = {{.name = "openapi", .description = "This document."}};
+
+const ApiNoun kOpenapi = {
+    .routes = kOpenapiRoutes, .components = kOpenapiComponents, .tags = kOpenapiTags};
 
 }  // namespace vitrine::server

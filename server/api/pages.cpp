@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "codec/core/sha256.h"
 #include "server/api/handlers.h"
-#include "server/api/links.h"
 #include "server/api/published.h"
+#include "server/api/web_pages.h"
 #include "server/messages/content_coding.h"
+#include "server/records/collection_page.h"
+#include "server/records/links.h"
 
 namespace vitrine::server {
 namespace {
 
-// The page that oEmbed offers to other sites in a frame.
+std::string tag_of(std::span<const std::uint8_t> bytes) {
+  return '"' + to_hex(sha256(bytes)) + '"';
+}
+
+// The page that other sites show in an oEmbed frame.
 constexpr std::string_view kViewer = "/model.html";
+// Number of models in the HTML of a collection's page. Its script loads the others.
+constexpr std::uint32_t kModelsInPage = 24;
 
 Response page(std::string_view path, const Request& request, Services& services) {
   const WebPage* found = services.pages.find(path);
@@ -31,7 +42,39 @@ Response page(std::string_view path, const Request& request, Services& services)
   return response;
 }
 
+std::string sitemap_entry(std::string_view element, std::string_view origin,
+                          std::string_view path) {
+  return fmt::format("<{0}><loc>{1}{2}</loc></{0}>\n", element, origin, path);
+}
+
+// Returns the entries of the gallery and of the collections, at most kMostListed of them.
+std::string first_entries(const std::vector<std::string>& collections, std::string_view origin) {
+  std::string entries = sitemap_entry("url", origin, "/");
+  const std::size_t most = std::min<std::size_t>(collections.size(), kMostListed);
+  for (const std::string& name : std::span(collections).first(most))
+    entries += sitemap_entry("url", origin, collection_path(name));
+  return entries;
+}
+
+Response sitemap(std::string_view element, std::string_view entries) {
+  return revalidated(
+      "application/xml",
+      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                  "<{0} xmlns=\"http://www.sitemaps.org/schemas/sitemap/0.9\">\n{1}</{0}>\n",
+                  element, entries));
+}
+
 }  // namespace
+
+WebPages::WebPages(std::span<const WebAsset> assets) {
+  for (const WebAsset& asset : assets)
+    pages_.emplace(asset.path, WebPage{asset, tag_of(asset.bytes), tag_of(asset.gzip)});
+}
+
+const WebPage* WebPages::find(std::string_view path) const {
+  const auto found = pages_.find(path);
+  return found == pages_.end() ? nullptr : &found->second;
+}
 
 static Response show_gallery(const Request& request, Services& services) {
   return page("/index.html", request, services);
@@ -43,20 +86,36 @@ static Response show_viewer(const Request& request, Services& services) {
     if (found == nullptr) return problem(404, "there is no such page", request.id);
     const std::span html = found->asset.bytes;
     const ModelRecord& record = model->record();
+    const auto size = dimensions_of(record, model->manifest());
     const std::string text(reinterpret_cast<const char*>(html.data()), html.size());
-    Response response =
-        revalidated(found->asset.type,
-                    with_texts(with_links(text, record, origin_of(request, services)), record));
+    Response response = revalidated(
+        found->asset.type, with_texts(with_links(text, record, origin_of(request, services)),
+                                      record, size ? to_text(*size) : ""));
     response.is_embeddable = true;
     return response;
   });
+}
+
+// Shows a collection as long as a published model belongs to it.
+static Response show_collection(const Request& request, Services& services) {
+  const std::string name = collection_in(request);
+  const auto found =
+      services.catalogue.search({.facets = {{"collection", name}}, .limit = kModelsInPage});
+  if (!found) return internal_error(found.error(), request, services);
+  const WebPage* gallery = services.pages.find("/index.html");
+  if (found->models.empty() || gallery == nullptr)
+    return problem(404, "there is no such collection", request.id);
+  const std::span html = gallery->asset.bytes;
+  return revalidated(gallery->asset.type,
+                     with_collection({reinterpret_cast<const char*>(html.data()), html.size()},
+                                     name, found->models, origin_of(request, services)));
 }
 
 static Response show_docs(const Request& request, Services& services) {
   return page("/docs.html", request, services);
 }
 
-// Returns the same page for every ID. Whether a scan exists can be learned only from the API.
+// Returns the same page for every ID, so that the page does not reveal which scans exist.
 static Response show_scan_page(const Request& request, Services& services) {
   return page("/scan.html", request, services);
 }
@@ -77,21 +136,30 @@ static Response show_robots(const Request& request, Services& services) {
                                  origin_of(request, services)));
 }
 
-// Lists the pages of the published models (sitemaps.org).
+// Lists the pages of the published models and of their collections (sitemaps.org). If they are too
+// many for one sitemap, lists the sitemaps.
 static Response show_sitemap(const Request& request, Services& services) {
-  const auto models = all_public(services);
-  if (!models) return internal_error(models.error(), request, services);
   const std::string origin = origin_of(request, services);
-  std::string xml =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<urlset xmlns=\"http://www.sitemaps.org/schemas/sitemap/0.9\">\n";
-  xml += fmt::format("<url><loc>{}/</loc></url>\n", origin);
-  for (const ModelRecord& model : *models)
-    xml += fmt::format("<url><loc>{}/models/{}</loc></url>\n", origin, model.id.to_string());
-  return revalidated("application/xml", xml + "</urlset>\n");
+  const auto collections = services.catalogue.collections();
+  if (!collections) return internal_error(collections.error(), request, services);
+  const auto index = [&](const std::vector<ModelId>& cursors) {
+    std::string entries;
+    for (const ModelId& cursor : cursors)
+      entries += sitemap_entry("sitemap", origin, "/sitemap.xml?cursor=" + cursor.to_string());
+    return sitemap("sitemapindex", entries);
+  };
+  const auto models_page = [&](const std::vector<ModelRecord>& models,
+                               const std::optional<ModelId>& cursor) {
+    const bool is_first = !cursor || *cursor == first_cursor();
+    std::string entries = is_first ? first_entries(*collections, origin) : std::string();
+    for (const ModelRecord& model : models)
+      entries += sitemap_entry("url", origin, "/models/" + model.id.to_string());
+    return sitemap("urlset", entries);
+  };
+  return in_pages(request, services, index, models_page);
 }
 
-// Browsers request this path even if no page links to it.
+// Browsers request this path even if a page does not link to it.
 static Response show_favicon(const Request& request, Services& services) {
   return page("/favicon.svg", request, services);
 }
@@ -101,6 +169,10 @@ static constexpr ApiRoute kPageRoutes[] = {
     {.method = Method::kGet,
      .path = "/models/{id}",
      .handler = show_viewer,
+     .executor = Executor::kWorker},
+    {.method = Method::kGet,
+     .path = "/collections/{collection}",
+     .handler = show_collection,
      .executor = Executor::kWorker},
     {.method = Method::kGet,
      .path = "/scans/{id}",

@@ -5,6 +5,7 @@
 
 #include "codec/core/parse_number.h"
 #include "server/catalogue/id.h"
+#include "server/messages/query.h"
 
 namespace vitrine::server {
 namespace {
@@ -37,11 +38,15 @@ bool is_number(std::string_view text) {
          parse_number<std::uint32_t>(text).has_value();
 }
 
-constexpr ParameterPattern kPatterns[] = {{"id", is_id},
-                                          {"sha256", is_sha256},
-                                          {"format", is_format},
-                                          {"name", is_name},
-                                          {"number", is_number}};
+bool is_collection(std::string_view text) {
+  constexpr std::size_t kMost = 3 * 4096;  // a line of text, with each byte percent-encoded
+  const auto name = text.size() <= kMost ? decode_path(text) : std::nullopt;
+  return name && !name->empty();
+}
+
+constexpr ParameterPattern kPatterns[] = {{"id", is_id},         {"sha256", is_sha256},
+                                          {"format", is_format}, {"name", is_name},
+                                          {"number", is_number}, {"collection", is_collection}};
 
 }  // namespace
 
@@ -53,6 +58,10 @@ Sha256 sha256_in(const Request& request) {
   Sha256 hash{};
   from_hex(request.parameters["sha256"], hash);
   return hash;
+}
+
+std::string collection_in(const Request& request) {
+  return *decode_path(request.parameters["collection"]);
 }
 
 std::uint32_t number_in(const Request& request) {

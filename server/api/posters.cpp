@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/api/links.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +12,13 @@
 #include "server/api/handlers.h"
 #include "server/api/published.h"
 #include "server/messages/query.h"
+#include "server/records/links.h"
 
 namespace vitrine::server {
 namespace {
 
-// Returns the width that the query asks for, or the default if it has none. Returns nullopt if the
-// width is not supported.
+// Returns the width in the query, or the default width if the query has none. Returns nullopt if
+// the width is not supported.
 std::optional<unsigned> read_width(const Query& query) {
   const auto text = query.get("width");
   if (!text) return kPosterWidth;
@@ -27,17 +27,26 @@ std::optional<unsigned> read_width(const Query& query) {
   return width == std::end(kPosterWidths) ? std::nullopt : std::optional(*width);
 }
 
-// Renders the model from the viewer's initial viewpoint, with one triangle per two pixels. The
-// model covers about half of the picture and hides half of its own triangles, so more triangles
-// would not be visible. The texture has up to four pixels per pixel of the poster, because parts of
-// it are gaps between charts.
+// Returns the framing of the view that the presentation chooses for posters.
+Framing frame_of(const TriangleMesh& mesh, const Presentation& presentation, unsigned width) {
+  const auto& view = presentation.poster ? presentation.poster : presentation.view;
+  Framing frame = frame_around(mesh, width, view ? direction_of(*view) : Framing{}.toward);
+  frame.width = frame.height = width;
+  if (view) frame.pixel /= view->zoom;
+  if (view && view->target) frame.centre = *view->target;
+  return frame;
+}
+
+// Renders the model from the viewpoint of its posters, with one triangle per two pixels. More
+// triangles would not be visible, because the model covers about half of the picture and hides half
+// of its own triangles. The texture has up to four pixels per pixel of the poster, because some of
+// its area is unused.
 Expected<std::vector<std::uint8_t>> make_poster(const PublishedModel& model, unsigned width) {
   const auto decoded =
       decoded_model(model, WantTriangles{std::uint64_t{width} * width / 2}, 2 * width);
   if (!decoded) return tl::unexpected(decoded.error());
   const TriangleMesh& mesh = decoded->mesh;
-  Framing frame = frame_around(mesh, width);
-  frame.width = frame.height = width;
+  const Framing frame = frame_of(mesh, model.record().presentation, width);
   if (decoded->texturing.empty()) return write_png(render(mesh, frame));
   auto pictures = decode_pictures(decoded->texturing, kShownMaps, Limits{}.pixels);
   if (!pictures) return tl::unexpected(pictures.error());
@@ -47,20 +56,26 @@ Expected<std::vector<std::uint8_t>> make_poster(const PublishedModel& model, uns
 
 Expected<ExportCache::File> find_or_make_poster(const PublishedModel& model, unsigned width,
                                                 ExportCache& cache) {
-  const auto key = fmt::format("{} poster {}", to_hex(model.record().file), width);
+  const auto key = fmt::format("{} poster {} {}", to_hex(model.record().file), width,
+                               key_of(model.record().presentation));
   return cache.find_or_make(key, [&] { return make_poster(model, width); });
 }
 
 }  // namespace
 
-void make_posters(const ModelId& id, Services& services) {
-  if (!services.exports.keeps_files()) return;
+Expected<void> make_posters(const ModelId& id, Services& services) {
+  Expected<void> made;
+  if (!services.exports.keeps_files()) return made;
   for (const bool has_token : {false, true}) {
-    const VisibleModel found = find_visible(id, has_token, services.models);
-    if (!found.model || !*found.model) continue;
-    for (const unsigned width : kPosterWidths)
-      static_cast<void>(find_or_make_poster(**found.model, width, services.exports));
+    const FoundModel found = find_visible(id, has_token, services.models).model;
+    if (!found) made = tl::unexpected(found.error());
+    if (!found || !*found) continue;
+    for (const unsigned width : kPosterWidths) {
+      const auto poster = find_or_make_poster(**found, width, services.exports);
+      if (!poster) made = tl::unexpected(poster.error());
+    }
   }
+  return made;
 }
 
 static Response show_poster(const Request& request, Services& services) {
@@ -96,8 +111,9 @@ static constexpr ApiRoute kPosterRoutes[] = {
      .handler = show_poster,
      .executor = Executor::kCompute,
      .doc = {.id = "getPoster",
-             .summary = "Returns a square picture of the model in the viewer's first view, on a "
-                        "transparent background.",
+             .summary =
+                 "Returns a square picture of the model in the view chosen for posters, or else "
+                 "in the viewer's first view, on a transparent background.",
              .parameters = "width",
              .response = "image/png"}},
 };

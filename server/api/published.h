@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Helpers that the handlers of models share: responses about the model that a caller may see, and
+// Helpers that the handlers of models share: they find the model that a caller may see, and make
 // common responses.
 #pragma once
 
+#include <fmt/format.h>
+
+#include "server/api/job_json.h"
+#include "server/api/model_json.h"
 #include "server/api/path_parameters.h"
 #include "server/api/services.h"
 #include "server/api/visibility.h"
 #include "server/messages/problem.h"
+#include "server/records/links.h"
 #include "server/store/change.h"
 
 namespace vitrine::server {
@@ -16,20 +21,48 @@ inline Body stored_body(const std::shared_ptr<const PublishedModel>& model, Byte
   return StoredBytes{{model, &model->file()}, range.offset, range.length};
 }
 
+// Returns the start of absolute URLs. See server/records/links.h.
+inline std::string origin_of(const Request& request, const Services& services) {
+  return origin_of(request, services.settings.get().public_url);
+}
+
+// Returns how models are shown to the client of the request.
+inline ModelView view_for(const Request& request, const Services& services) {
+  return {.has_token = request.caller.has_value(),
+          .counts_visits = services.settings.get().counts_visits,
+          .origin = origin_of(request, services),
+          .public_url = services.settings.get().public_url};
+}
+
+// Returns the entity tag of a part of the model's file; `sha256` is the part's hash. After a
+// damaged file was repaired, the tag changes. Otherwise, a 304 response could confirm a damaged
+// copy in a client's cache.
+inline std::string stored_tag(const PublishedModel& model, const Sha256& sha256,
+                              std::string_view suffix = "") {
+  std::string tag = '"' + to_hex(sha256);
+  tag += suffix;
+  if (model.damages() > 0) tag += fmt::format("-repaired{}", model.damages());
+  return tag + '"';
+}
+
 // Writes the error to the operator's log.
-inline void tell_operator(const Error& error, const Request& request, Services& services) {
+inline void tell_operator(const Error& error, std::string_view request_id, Services& services) {
   services.errors.event(Severity::kError,
-                        std::string("request ") + std::string(request.id) + ": " + error.message);
+                        std::string("request ") + std::string(request_id) + ": " + error.message);
 }
 
 // Logs the error. Returns 503 if the catalogue, store or disk does not respond, else 500. The
 // response does not contain the reason.
+inline Response internal_error(const Error& error, std::string_view request_id,
+                               Services& services) {
+  tell_operator(error, request_id, services);
+  return error.code == ErrorCode::kIo ? away(request_id) : problem(500, "", request_id);
+}
 inline Response internal_error(const Error& error, const Request& request, Services& services) {
-  tell_operator(error, request, services);
-  return error.code == ErrorCode::kIo ? away(request.id) : problem(500, "", request.id);
+  return internal_error(error, request.id, services);
 }
 
-// Returns the faults of a webhook URL. An empty URL has none; it means that no webhook is called.
+// Returns the faults of a webhook URL. An empty URL is valid and means that no webhook is called.
 inline FieldFaults check_webhook(const std::string& url, Services& services) {
   if (url.empty() || services.webhooks.allows(url)) return {};
   return {{"webhook", "a URL at a host of the setting webhook-hosts"}};
@@ -45,11 +78,14 @@ Response with_found(const FoundModel& model, const Request& request, Services& s
   return answer(*model);
 }
 
-// Returns the public parts of the published models, newest first, at most kMostListed of them.
-inline constexpr std::size_t kMostListed = 10'000;
-inline Expected<std::vector<ModelRecord>> all_public(Services& services) {
+// Largest number of models in one page of a listing. A sitemap may have up to 50,000 addresses.
+inline constexpr std::uint32_t kMostListed = 10'000;
+
+// Returns the public parts of the published models that the query finds, at most kMostListed of
+// them. Ignores the query's limit.
+inline Expected<std::vector<ModelRecord>> list_public(ModelQuery query, Services& services) {
   std::vector<ModelRecord> all;
-  ModelQuery query{.limit = kMaxPage};
+  query.limit = kMaxPage;
   do {
     auto page = services.catalogue.search(query);
     if (!page) return tl::unexpected(page.error());
@@ -58,6 +94,36 @@ inline Expected<std::vector<ModelRecord>> all_public(Services& services) {
     query.after = page->next;
   } while (query.after && all.size() < kMostListed);
   return all;
+}
+
+// The cursor of the first page, newest models first: the greatest ID, which no model has.
+inline ModelId first_cursor() {
+  Ulid greatest;
+  greatest.fill(0xFF);
+  return ModelId::from_bytes(greatest);
+}
+
+// Answers a request for a document that lists all published models. If they need several pages and
+// the request has no cursor, returns `index(cursors)`, with the cursor of each page. Otherwise
+// returns `page(models, cursor)` with the models of the requested page.
+template <class Index, class Page>
+Response in_pages(const Request& request, Services& services, Index&& index, Page&& page) {
+  constexpr std::string_view kKnown[] = {"cursor"};
+  const auto query = read_query(request, kKnown);
+  if (!query) return query.error();
+  const auto asked = read_page<ModelId>(*query);
+  if (!asked) return problem(400, "a parameter is out of range", request.id, asked.error());
+  if (!asked->after) {
+    auto cursors = services.catalogue.page_cursors(kMostListed);
+    if (!cursors) return internal_error(cursors.error(), request, services);
+    if (!cursors->empty()) {
+      cursors->insert(cursors->begin(), first_cursor());
+      return index(*cursors);
+    }
+  }
+  const auto models = list_public({.after = asked->after}, services);
+  if (!models) return internal_error(models.error(), request, services);
+  return page(*models, asked->after);
 }
 
 // Marks the response as private to this caller.

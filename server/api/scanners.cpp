@@ -24,13 +24,13 @@ Response after(const Expected<void>& done, ScannerStation& scanner, const Reques
   return done ? state_of(scanner) : problem(409, done.error().message, request.id);
 }
 
-// Returns the member `name` of the body, or null unless it is the only member.
+// Returns the member `name` of the body. Returns null if it is absent or not the only member.
 const nlohmann::json* only_member(const nlohmann::json& body, const char* name) {
   const auto found = body.find(name);
   return found != body.end() && body.size() == 1 ? &*found : nullptr;
 }
 
-// Returns a permit for the laser. It expires when the caller's token is revoked or cannot be
+// Returns a permit for the laser. The permit ends when the caller's token is revoked or cannot be
 // checked.
 LaserPermit permit_of(const Caller& caller, Authenticator& tokens) {
   return [caller, &tokens] { return tokens.is_in_force(caller).value_or(false); };
@@ -224,6 +224,11 @@ static constexpr ApiRoute kScannerRoutes[] = {
              .response = "image/png"}},
 };
 
-const ApiNoun kScanners = {.routes = kScannerRoutes, .components = kScannersComponents};
+static constexpr ApiTag kScannersTags[] = {
+    {.name = "scanners",
+     .description = "Scanners of this daemon: state, previews, calibration and emergency stop."}};
+
+const ApiNoun kScanners = {
+    .routes = kScannerRoutes, .components = kScannersComponents, .tags = kScannersTags};
 
 }  // namespace vitrine::server

@@ -33,9 +33,9 @@ Response with_scan(const Request& request, Services& services, Answer&& answer) 
   return problem(404, "there is no such scan", request.id);
 }
 
-// Returns the scans as a JSON array. If another daemon runs a scan, asks that daemon, because only
-// it knows the remaining time and what the scan is waiting for. If that daemon does not respond,
-// uses the catalogue instead.
+// Returns the scans as a JSON array. If another daemon runs a scan, asks that daemon, because the
+// catalogue lacks the remaining time and the reason for which the scan waits. If that daemon does
+// not respond, uses the catalogue.
 nlohmann::ordered_json told(std::span<const ScanInfo> scans, const Request& request,
                             Services& services) {
   auto list = nlohmann::ordered_json::array();
@@ -68,7 +68,7 @@ Response state_after(const Expected<void>& done, const ScanId& id, const Request
   if (!done) return refused(done.error(), request, services);
   const auto scan = services.scans.find(id);
   if (!scan || !*scan) return problem(404, "there is no such scan", request.id);
-  // 202 (Accepted), because the command takes effect only at the next step of the turntable.
+  // Responds with 202 (Accepted), because the command takes effect at the turntable's next step.
   return json_answer(scan_json(**scan), 202);
 }
 
@@ -77,7 +77,7 @@ std::optional<std::size_t> read_from(const Query& query) {
 }
 
 // Whether the calibration that the order names exists. Returns true if this daemon does not drive
-// the scanner and cannot know; the job then reports a missing calibration.
+// the scanner and so cannot check; the job then reports a missing calibration.
 bool knows_calibration(const ScanOrder& order, Services& services) {
   ScannerStation* scanner = services.scans.scanner(order.scanner);
   if (order.calibration == 0 || scanner == nullptr) return true;
@@ -184,9 +184,9 @@ static Response reprocess_scan(const Request& request, Services& services) {
     if (!before) return refused(before.error(), request, services);
     const bool is_whole = scan.entry.step == scan.entry.steps,
                has_model = scan.entry.model.has_value();
-    // Applies if the order does not say whether to publish. The model of an incomplete scan then
-    // becomes a draft. A model that replaces another one becomes public if visitors could see all
-    // of the other one.
+    // These defaults apply if the order does not say whether to publish. The model of an incomplete
+    // scan becomes a draft. A model that replaces another model becomes public if visitors could
+    // see all of the replaced model.
     before->is_public = before->is_public && is_whole && !has_model;
     before->is_public_as_before = is_whole && has_model;
     const auto order = parse_reprocess_order(request.body, *before);
@@ -342,6 +342,9 @@ static constexpr ApiRoute kScanRoutes[] = {
              .status = 204}},
 };
 
-const ApiNoun kScans = {.routes = kScanRoutes, .components = kScansComponents};
+static constexpr ApiTag kScansTags[] = {
+    {.name = "scans", .description = "Finished and running scans, from which models are made."}};
+
+const ApiNoun kScans = {.routes = kScanRoutes, .components = kScansComponents, .tags = kScansTags};
 
 }  // namespace vitrine::server

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the daemon that handlers use. The daemon owns these parts. They are thread-safe and
-// outlive every connection.
+// Declares the parts of the daemon that handlers use. The daemon owns these parts. They are
+// thread-safe and outlive every connection.
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,16 +47,20 @@ struct Services {
   VisitCounter& visits;
   const Log& log;     // access log
   const Log& errors;  // log of events that operators must know about
-  std::atomic<bool> ready{false};
+  std::atomic<bool> is_ready{false};
+  // Starts to make the posters of a model in the background (Workers::compute()), so that no
+  // request waits for them. Handlers call it after a change of a model's public file. Empty in
+  // processes without workers.
+  std::function<void(const ModelId&)> order_posters = {};
 
   BusyStreams busy_streams = {};
 
-  // Limits on the number of requests that are being forwarded. Each of them keeps a worker thread
-  // waiting until the other daemon responds. Requests without a token, requests with a token, and
-  // emergency stops have separate limits. One address may use at most half of the limit for
-  // requests without a token. The worker pool has one additional thread for each request that may
-  // be forwarded (WorkerOptions), so that other requests and the watchdog never wait for another
-  // daemon.
+  // Limits on the number of requests that are being forwarded. Each forwarded request keeps a
+  // worker thread waiting until the other daemon responds. There are separate limits for requests
+  // without a token, requests with a token, and emergency stops. One address may use at most half
+  // of the limit for requests without a token. The worker pool has one extra thread for each
+  // request that may be forwarded (WorkerOptions), so that other requests and the watchdog never
+  // wait for another daemon.
   static constexpr std::size_t kMostForwarded = 8;  // limit for each of the three kinds of requests
   static constexpr unsigned kWaitingThreads = 3 * kMostForwarded;
   const std::shared_ptr<AdmissionLimit> forwarded_for_strangers =

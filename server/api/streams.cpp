@@ -25,7 +25,7 @@ Response upgrade_required(std::string_view request_id) {
 }
 
 // Reads the query parameter `head`: whether to send the model's head (Manifest::head_bytes())
-// first. Returns false if it is absent, nullopt if the query is invalid.
+// first. Returns false if the parameter is absent, nullopt if the query is invalid.
 std::optional<bool> head_in(std::string_view text) {
   constexpr std::string_view kKnown[] = {"head"};
   const auto query = Query::parse(text);
@@ -64,10 +64,11 @@ struct StreamClient {
   }
 };
 
-// Whether the client may still see the model, and the model still has the file that the stream
-// opened.
+// Whether the client may still see the model, and its file is still the one that the stream opened
+// and was not found damaged since. `now` is the result of a new lookup of the model.
 bool is_current(const PublishedModel& opened, const FoundModel& now) {
-  return now && *now && (*now)->record().file == opened.record().file;
+  return now && *now && (*now)->record().file == opened.record().file &&
+         (*now)->damages() == opened.damages();
 }
 
 // The models that one stream has open. Thread-safe.
@@ -79,9 +80,10 @@ class OpenModels {
     checked_.reset();
   }
 
-  // Whether all models are current. Checks the models only if the catalogue has changed since the
-  // last call. A model whose look-up fails counts as current, because the cache still serves it;
-  // the next call checks it again.
+  // Whether all models are current. Returns true at once if no model has changed and no file was
+  // found damaged since the last call. Finds damage without opening a file, because fetching a new
+  // copy may take long. If the catalogue or the store cannot be read, a model counts as current,
+  // because the cache still serves it; the next call checks it again.
   bool are_current(bool has_token, PublishedModels& cache) {
     const auto revision = cache.revision();
     if (!revision) return true;
@@ -89,9 +91,11 @@ class OpenModels {
     if (!models) return true;
     bool are_all_found = true;
     for (const StreamedModel& model : *models) {
+      if (cache.damages_of(model->record().file) != model->damages()) return false;
       const FoundModel now = find_visible(model->record().id, has_token, cache).model;
-      if (now && !is_current(*model, now)) return false;
-      if (!now) are_all_found = false;
+      const bool is_unknown = !now && now.error().code == ErrorCode::kIo;
+      if (!is_unknown && !is_current(*model, now)) return false;
+      if (is_unknown) are_all_found = false;
     }
     if (are_all_found) set_checked(models, *revision);
     return true;
@@ -101,23 +105,23 @@ class OpenModels {
   using Models = std::vector<StreamedModel>;
 
   // Returns the open models, or null if they were already checked at this revision.
-  std::shared_ptr<const Models> unchecked(std::uint64_t revision) {
+  std::shared_ptr<const Models> unchecked(const ModelsRevision& revision) {
     const std::scoped_lock lock(mutex_);
     return checked_ == revision ? nullptr : models_;
   }
-  // Records that `models` were checked at this revision, unless the stream has opened or closed a
-  // model since unchecked().
-  void set_checked(const std::shared_ptr<const Models>& models, std::uint64_t revision) {
+  // Records that `models` were checked at this revision. Has no effect if the stream has
+  // opened or closed a model since unchecked().
+  void set_checked(const std::shared_ptr<const Models>& models, const ModelsRevision& revision) {
     const std::scoped_lock lock(mutex_);
     if (models == models_) checked_ = revision;
   }
 
   std::mutex mutex_;  // guards the members below
   std::shared_ptr<const Models> models_ = std::make_shared<const Models>();
-  std::optional<std::uint64_t> checked_;  // the catalogue's revision at the last complete check
+  std::optional<ModelsRevision> checked_;  // revision at the last complete check
 };
 
-// Gives one stream access to the rest of the daemon. Models are looked up on a worker. Each `open`
+// Connects one stream to the rest of the daemon. Looks up models on a worker thread. Each `open`
 // message counts towards the client's request rate.
 class ModelStreamHost : public StreamHost {
  public:
@@ -143,13 +147,14 @@ class ModelStreamHost : public StreamHost {
     const ModelRecord& opened = model->record();
     if (!client_.caller && cached_visible(opened.id, false, services_.models) == model)
       co_return true;
+    if (services_.models.damages_of(opened.file) != model->damages()) co_return false;
     co_return server::is_current(*model, co_await find_on_worker(opened.id));
   }
 
   void shows(std::vector<StreamedModel> models) override { open_.set(std::move(models)); }
 
   void on_drain(std::function<void()> stop) override {
-    if (connection_->draining) stop();
+    if (connection_->is_draining) stop();
     connection_->on_drain = std::move(stop);
   }
 
@@ -168,6 +173,18 @@ class ModelStreamHost : public StreamHost {
 
  private:
   asio::awaitable<Expected<StreamedModel>> find_on_worker(ModelId id) {
+    std::optional<Opening> opening;
+    auto look = [&]() -> asio::awaitable<void> {
+      opening = opening_of(id, client_.caller.has_value(), services_.models);
+      co_return;
+    };
+    co_await asio::co_spawn(server_.workers().executor(Executor::kWorker), look,
+                            asio::use_awaitable);
+    if (opening) {
+      co_await server_.workers().open(
+          client_.caller ? client_.caller->token.to_string() : network_of(client_.address),
+          std::move(*opening));
+    }
     auto work = [&]() -> asio::awaitable<Expected<StreamedModel>> { co_return find_now(id); };
     co_return co_await asio::co_spawn(server_.workers().executor(Executor::kWorker), work,
                                       asio::use_awaitable);

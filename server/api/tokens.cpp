@@ -131,6 +131,10 @@ static constexpr ApiRoute kTokenRoutes[] = {
           .status = 204}},
 };
 
-const ApiNoun kTokens = {.routes = kTokenRoutes, .components = kTokensComponents};
+static constexpr ApiTag kTokensTags[] = {
+    {.name = "tokens", .description = "Tokens of people and programs, with their roles."}};
+
+const ApiNoun kTokens = {
+    .routes = kTokenRoutes, .components = kTokensComponents, .tags = kTokensTags};
 
 }  // namespace vitrine::server

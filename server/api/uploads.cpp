@@ -43,7 +43,7 @@ Response tus(Response response) {
   return response;
 }
 
-// Returns 412 unless the request states this version of tus. Otherwise returns nullopt.
+// Returns 412 unless the request states version 1.0.0 of tus; otherwise returns nullopt.
 std::optional<Response> refuse_version(const Request& request) {
   if (value(request.header, "Tus-Resumable") == kVersion) return std::nullopt;
   Response response = problem(412, "send Tus-Resumable: 1.0.0", request.id);
@@ -90,19 +90,19 @@ Expected<std::optional<JobRecord>> job_of(const UploadId& upload, Services& serv
       [&](const JobRecord& job) { return PublishJobs::upload_of(job) == upload; });
 }
 
-// Ends an upload and frees its bytes, unless a job needs it. If that is unknown, because the
-// catalogue is unreachable, the upload stays until it expires.
+// Ends an upload and frees its bytes, unless a job needs it. If the catalogue cannot be read, a job
+// may need the upload, so the upload stays until it expires.
 void discard(const UploadId& upload, Services& services) {
   const auto held = services.uploads.hold();
   if (const auto job = job_of(upload, services); job && !*job)
     static_cast<void>(services.uploads.remove(upload));
 }
 
-// Writes the pieces of a body to an upload as they arrive. Sends the response once they are on the
+// Writes the pieces of a body to an upload as they arrive. Responds when all pieces are on the
 // disk. If the body does not match the client's checksum, restores the upload's previous state. If
-// the disk has no room for the body, ends the upload, because its bytes would take the room of
-// other uploads. If the same request created the upload, any refusal ends the upload, because the
-// client does not learn its ID.
+// the disk has no room for the body, ends the upload, because it would take the room of other
+// uploads. If the same request created the upload, any refusal ends the upload, because the client
+// never learns its ID.
 class UploadSink final : public BodySink {
  public:
   UploadSink(Response answer, UploadWriter writer, std::optional<BodyChecksum> checksum,
@@ -166,29 +166,43 @@ Uploading<Upload> own_upload(const Request& request, Services& services) {
   return tl::unexpected(UploadFault{UploadFault::kGone, "there is no such upload"});
 }
 
-// Checks that `length` more bytes leave the disk's reserve free once all open uploads are complete.
-Uploading<void> check_room(std::uint64_t length, Services& services) {
+// Checks that the disk's reserve stays free even after all open uploads and `length` more bytes
+// have arrived. If `token` already has open uploads, they and the new upload may use at most half
+// of the room that other tokens' uploads leave. Without this limit, one token could reserve the
+// whole disk by opening many uploads without sending a byte.
+Uploading<void> check_room(std::uint64_t length, const TokenId& token, Services& services) {
   const auto open = services.uploads.list();
   if (!open) return tl::unexpected(open.error());
   const Settings& settings = services.settings.get();
   const std::uint64_t free = free_space(settings);
-  std::uint64_t room = free - std::min(free, settings.disk_reserve_bytes);
-  for (const Upload& upload : *open)
-    room -= std::min(room, upload.length - upload.offset);
-  if (length <= room) return {};
+  std::uint64_t room = free - std::min(free, settings.disk_reserve_bytes), own = 0;
+  for (const Upload& upload : *open) {
+    const std::uint64_t unsent = std::min(room, upload.length - upload.offset);
+    room -= unsent;
+    if (upload.token == token) own += unsent;
+  }
+  if (length > room) {
+    return tl::unexpected(UploadFault{
+        UploadFault::kNoRoom,
+        fmt::format("the disk has no room for {} bytes; remove models or add disk space", length)});
+  }
+  const std::uint64_t share = (room + own) / 2;
+  if (own == 0 || (own <= share && length <= share - own)) return {};
   return tl::unexpected(UploadFault{
-      UploadFault::kNoRoom,
-      fmt::format("the disk has no room for {} bytes; remove models or add disk space", length)});
+      UploadFault::kTooMany,
+      fmt::format("the open uploads of this token have {} bytes to come, and {} more would exceed "
+                  "its share of the disk; finish or delete one",
+                  own, length)});
 }
 
-// Creates an upload if it fits into the quota and leaves the disk's reserve free. If the length is
-// unknown, there must be room for an upload of the largest allowed size.
+// Creates an upload if it fits into the quota and leaves the disk's reserve free. An upload of
+// unknown length counts with the largest allowed size.
 Uploading<Upload> announce(std::optional<std::uint64_t> length, std::string_view metadata,
                            const Request& request, Services& services) {
   Uploading<Upload> upload;
   const std::uint64_t most = length.value_or(services.uploads.limits().bytes);
   const auto fits = services.quota.admit(most, [&] {
-    if (const auto room = check_room(most, services); !room) {
+    if (const auto room = check_room(most, request.caller->token, services); !room) {
       upload = tl::unexpected(room.error());
     } else {
       upload = services.uploads.create(request.caller->token, length, std::string(metadata));
@@ -446,6 +460,11 @@ static constexpr ApiRoute kUploadRoutes[] = {
              .status = 204}},
 };
 
-const ApiNoun kUploads = {.routes = kUploadRoutes, .components = kUploadsComponents};
+static constexpr ApiTag kUploadsTags[] = {
+    {.name = "uploads",
+     .description = "Uploads of mesh files by the tus protocol, which can be resumed."}};
+
+const ApiNoun kUploads = {
+    .routes = kUploadRoutes, .components = kUploadsComponents, .tags = kUploadsTags};
 
 }  // namespace vitrine::server

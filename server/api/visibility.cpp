@@ -8,13 +8,22 @@ bool is_whole(const FoundModel& published) {
   return published && *published && !(*published)->record().public_part;
 }
 
-// A job adds its model to the catalogue first and records the model in the scan later. If the job
-// ends between these steps, the scan cannot follow later changes of the model, so the scan is
-// hidden. Cancelling the job hides the scan, too.
+// Whether visitors see a scan that has no model yet. A job first adds its model to the catalogue
+// and later records the model in the scan. If the job ends in between, the scan cannot follow later
+// changes of the model, so the scan is hidden. A scan of a cancelled job is hidden, too.
 bool is_visible_without_model(const ScanInfo& scan) {
   const JobRecord& job = scan.job.record;
   return scan.entry.is_public && job.state != JobState::kCancelled &&
          (!job.model || !has_ended(job.state));
+}
+
+// Returns is_visible(scan, models). Fails with kIo if the catalogue or the store cannot be read.
+Expected<bool> check_visibility(const ScanInfo& scan, PublishedModels& models) {
+  if (!scan.entry.model) return is_visible_without_model(scan);
+  if (!scan.entry.built) return false;
+  const FoundModel shown = find_visible(*scan.entry.model, false, models).model;
+  if (!shown && shown.error().code == ErrorCode::kIo) return tl::unexpected(shown.error());
+  return shown && *shown && geometry_hash((*shown)->manifest()) == *scan.entry.built;
 }
 
 }  // namespace
@@ -32,17 +41,28 @@ std::shared_ptr<const PublishedModel> cached_visible(const ModelId& id, bool has
   return has_token && !is_all ? models.cached_whole(id) : published;
 }
 
+std::optional<Opening> opening_of(const ModelId& id, bool has_token, PublishedModels& models) {
+  const auto file = models.unopened(id, has_token);
+  if (!file) return std::nullopt;
+  return Opening{.name = to_hex(*file), .open = [id, has_token, &models] {
+                   return find_visible(id, has_token, models).model.has_value();
+                 }};
+}
+
 bool is_visible(const ScanInfo& scan, PublishedModels& models) {
-  if (!scan.entry.model) return is_visible_without_model(scan);
-  if (!scan.entry.built) return false;
-  const FoundModel shown = find_visible(*scan.entry.model, false, models).model;
-  return shown && *shown && geometry_hash((*shown)->manifest()) == *scan.entry.built;
+  return check_visibility(scan, models).value_or(false);
+}
+
+Expected<bool> check_visibility(const JobRecord& job, ScanService& scans, PublishedModels& models) {
+  if (!job.scan) return false;
+  const auto scan = scans.find(*job.scan);
+  if (!scan) return tl::unexpected(scan.error());
+  if (!*scan || (*scan)->entry.job != job.id) return false;
+  return check_visibility(**scan, models);
 }
 
 bool is_visible(const JobRecord& job, ScanService& scans, PublishedModels& models) {
-  if (!job.scan) return false;
-  const auto scan = scans.find(*job.scan);
-  return scan && *scan && (*scan)->entry.job == job.id && is_visible(**scan, models);
+  return check_visibility(job, scans, models).value_or(false);
 }
 
 }  // namespace vitrine::server

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides what a caller may see of models, scans and jobs. Every handler that shows one of them
-// asks these functions.
+// Decides what a caller may see of models, scans and jobs. Every handler that shows models, scans
+// or jobs calls these functions.
 //
 // A caller with a token sees everything. A visitor, who has no token, sees the public part of
-// published models: no draft, no level above the cap, no earlier file. A visitor sees a scan's
-// points, profile, record and job as long as these reveal nothing that the scan's model hides. A
-// request for a chunk by its hash alone finds only chunks of public parts
+// published models: no draft, no level finer than the public limit, no earlier file. A visitor sees
+// a scan's points, profile, record and job as long as these reveal nothing that the scan's model
+// hides. A request for a chunk by its hash alone finds only chunks of public parts
 // (PublishedModels::find_chunk).
 #pragma once
 
 #include "server/jobs/scan_service.h"
+#include "server/messages/router.h"
 #include "server/store/published_model.h"
 
 namespace vitrine::server {
@@ -30,13 +31,20 @@ VisibleModel find_visible(const ModelId& id, bool has_token, PublishedModels& mo
 std::shared_ptr<const PublishedModel> cached_visible(const ModelId& id, bool has_token,
                                                      PublishedModels& models);
 
-// Whether visitors see the scan. If the scan has no model yet, visitors see it if it was ordered as
-// public and not cancelled. If it has a model, visitors see the scan as long as they also see all
-// geometry that was built from it: the model is published, no level is hidden, and the file was not
-// replaced. If the catalogue or the store cannot be read, returns false.
+// Returns the file that find_visible() would have to open. Returns nullopt if that file is open
+// already or does not exist. May read the catalogue.
+std::optional<Opening> opening_of(const ModelId& id, bool has_token, PublishedModels& models);
+
+// Whether visitors see the scan. A scan without a model is visible if it was ordered as public and
+// not cancelled. A scan with a model is visible as long as visitors see all geometry that was built
+// from the scan: the model is published, no level is hidden, and the file was not replaced. Returns
+// false if the catalogue or the store cannot be read.
 bool is_visible(const ScanInfo& scan, PublishedModels& models);
 
-// Whether visitors see the job. They see a job only if it measures a scan that they see.
+// Whether visitors see the job: only a job that measures a visible scan is visible. Fails with kIo
+// if the catalogue or the store cannot be read.
+Expected<bool> check_visibility(const JobRecord& job, ScanService& scans, PublishedModels& models);
+// Like check_visibility(), but returns false if that function fails.
 bool is_visible(const JobRecord& job, ScanService& scans, PublishedModels& models);
 
 }  // namespace vitrine::server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts visits to published models, and shows the counts to operators. A viewer reports how long
-// its model was visible and the finest level that it showed. Only sums for each model and day are
-// kept: no address, cookie or user agent, and nothing about a single visit.
+// its model was visible and the finest level that it showed. The server keeps only sums for each
+// model and day: no address, cookie or user agent, and nothing about a single visit.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +11,7 @@
 #include "server/api/job_json.h"
 #include "server/api/published.h"
 #include "server/messages/download_name.h"
+#include "server/messages/timestamp.h"
 
 namespace vitrine::server {
 namespace {
@@ -21,7 +22,7 @@ using VisitFaults = std::vector<ParameterFault>;
 
 constexpr std::uint32_t kMaxSeconds = 86'400;  // longest time that one report may state
 constexpr days kDefaultDays{30};
-// Largest number of rows of a CSV file. It bounds the memory for building the file.
+// Largest number of rows of a CSV file. It limits the memory needed to build the file.
 constexpr std::uint32_t kMaxRows = 100'000;
 
 // A viewer's report. A visit has several reports if its page was hidden and shown again.
@@ -55,7 +56,7 @@ tl::expected<VisitReport, Response> read_report(const Request& request, std::uin
   return tl::unexpected(problem(400, "a parameter is out of range", request.id, faults));
 }
 
-// Returns the counts by which the report increases the sums.
+// Returns the counts that the report adds to the model's sums.
 VisitCounts counts_of(const VisitReport& report, std::uint32_t finest) {
   const bool was_complete = report.previous && *report.previous == finest;
   return {.visits = report.previous ? 0u : 1u,
@@ -66,17 +67,6 @@ VisitCounts counts_of(const VisitReport& report, std::uint32_t finest) {
 
 sys_days today() {
   return std::chrono::floor<days>(std::chrono::system_clock::now());
-}
-
-// Parses a date of the form 2026-11-28, from 1970 to 9999.
-std::optional<sys_days> parse_date(std::string_view text) {
-  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
-  const auto year = parse_number<std::uint16_t>(text.substr(0, 4));
-  const auto month = parse_number<std::uint8_t>(text.substr(5, 2));
-  const auto day = parse_number<std::uint8_t>(text.substr(8, 2));
-  if (!year || *year < 1970 || !month || !day) return std::nullopt;
-  const auto date = std::chrono::year(*year) / int{*month} / int{*day};
-  return date.ok() ? std::optional(sys_days(date)) : std::nullopt;
 }
 
 std::string format_date(sys_days day) {
@@ -94,7 +84,8 @@ tl::expected<DayRange, Response> read_days(const Request& request) {
   VisitFaults faults;
   const auto read = [&](const char* name, sys_days otherwise) {
     const auto text = query->get(name);
-    const auto day = text ? parse_date(*text) : otherwise;
+    auto day = text ? parse_date(*text) : otherwise;
+    if (day && *day < sys_days()) day = std::nullopt;  // no visits were counted before 1970
     if (!day) faults.push_back({name, kDate});
     return day.value_or(otherwise);
   };
@@ -252,6 +243,10 @@ static constexpr ApiRoute kVisitRoutes[] = {
              .response = "text/csv"}},
 };
 
-const ApiNoun kVisits = {.routes = kVisitRoutes, .components = kVisitsComponents};
+static constexpr ApiTag kVisitsTags[] = {
+    {.name = "visits", .description = "Visits to published models, as sums for each day."}};
+
+const ApiNoun kVisits = {
+    .routes = kVisitRoutes, .components = kVisitsComponents, .tags = kVisitsTags};
 
 }  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the files of the embedded web client, with their entity tags, by their paths.
+// Finds the files of the embedded web client, with their entity tags, by their URL paths.
 #pragma once
 
 #include <cstdint>

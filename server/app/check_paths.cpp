@@ -20,7 +20,7 @@ Expected<void> named(std::string_view key, const Expected<void>& checked) {
   return fail(checked.error().code, fmt::format("{}: {}", key, checked.error().message));
 }
 
-// Checks that the access log can be written. The log may also be a pipe or a terminal.
+// Checks that the access log can be written, even if it is a pipe or a terminal.
 Expected<void> check_log(const fs::path& log) {
   std::error_code unknown;
   if (log == "-") return {};
@@ -42,6 +42,12 @@ Expected<void> check_paths(const Settings& settings) {
   }
   if (settings.access_log.empty()) return {};
   return named("access-log", check_log(settings.access_log));
+}
+
+bool others_may_read(const std::filesystem::path& folder) {
+  std::error_code unknown;
+  const auto mode = std::filesystem::status(folder, unknown).permissions();
+  return (mode & std::filesystem::perms::others_all) != std::filesystem::perms::none;
 }
 
 }  // namespace vitrine::server

@@ -12,4 +12,7 @@ namespace vitrine::server {
 // names the key and the path.
 Expected<void> check_paths(const Settings& settings);
 
+// Whether every user of the machine may read the folder.
+bool others_may_read(const std::filesystem::path& folder);
+
 }  // namespace vitrine::server

@@ -18,9 +18,9 @@
 #include "server/api/routes.h"
 #include "server/api/services.h"
 #include "server/app/check_paths.h"
-#include "server/app/daemon_lock.h"
 #include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
+#include "server/app/poster_queue.h"
 #include "server/app/service_manager.h"
 #include "server/config/command_line.h"
 #include "server/config/host_names.h"
@@ -35,7 +35,9 @@
 #include "server/jobs/place_of.h"
 #include "server/jobs/publish_jobs.h"
 #include "server/remote/remote_server.h"
+#include "server/store/daemon_lock.h"
 #include "server/store/installation.h"
+#include "server/store/new_public_files.h"
 #include "server/store/text.h"
 #include "server/transport/live_tls.h"
 
@@ -60,12 +62,6 @@ Unexpected of_admin(const Error& error) {
   return fail(error.code, "--admin-listen: " + error.message);
 }
 
-bool others_may_read(const std::filesystem::path& folder) {
-  std::error_code unknown;
-  const auto mode = std::filesystem::status(folder, unknown).permissions();
-  return (mode & std::filesystem::perms::others_all) != std::filesystem::perms::none;
-}
-
 // Checks that the daemon can listen on its addresses. Called before the data folder is created, so
 // that a failed start leaves nothing behind.
 Expected<void> check_addresses(const Settings& settings) {
@@ -76,7 +72,7 @@ Expected<void> check_addresses(const Settings& settings) {
   return usable ? Expected<void>{} : of_admin(usable.error());
 }
 
-// The current configuration, and a function that reads the configuration again.
+// The current configuration, and a function that reads its file and environment again.
 struct Configuration {
   CommandLine line;
   std::function<Expected<CommandLine>()> reread;
@@ -123,8 +119,12 @@ class Daemon {
         quota_(*installation_.catalogue, uploads_, live_.get().quota_bytes),
         webhooks_(live_.get().webhook_hosts, events_, live_.get().webhook_key),
         purge_(live_.get().purge_urls, *installation_.catalogue, events_),
-        publishing_(
-            {*installation_.store, *installation_.catalogue, uploads_, quota_, live_.get().data}),
+        publishing_({.store = *installation_.store,
+                     .catalogue = *installation_.catalogue,
+                     .uploads = uploads_,
+                     .quota = quota_,
+                     .data = live_.get().data,
+                     .disk_reserve = [this] { return live_.get().disk_reserve_bytes; }}),
         collector_({*installation_.store, *installation_.catalogue, *installation_.jobs, uploads_,
                     events_, live_.get().collect_after}),
         scrubber_(
@@ -132,12 +132,14 @@ class Daemon {
              .catalogue = *installation_.catalogue,
              .models = models_,
              .catalogue_faults = [this] { return find_catalogue_faults(installation_.place); },
-             .events = events_}),
+             .events = events_,
+             .forget = [this](auto chunks) { purge_.forget(std::move(chunks)); }}),
         scans_({.store = *installation_.store,
                 .catalogue = *installation_.catalogue,
                 .jobs = *installation_.jobs,
                 .events = events_,
                 .data = live_.get().data,
+                .disk_reserve = [this] { return live_.get().disk_reserve_bytes; },
                 .publishing = [this](JobRun& run) { return publishing_.work(run); },
                 .quota = &quota_,
                 .taken = {.builds = live_.get().roles.builds,
@@ -150,7 +152,8 @@ class Daemon {
                 .claims = claims_.get(),
                 .when_added =
                     [this](const ModelId& model) {
-                      if (live_.get().roles.serves) make_posters(model, services_);
+                      // check_models() orders posters that cannot be made now
+                      if (live_.get().roles.serves) (void)make_posters(model, services_);
                     }},
                std::move(scanners)),
         exports_(live_.get().export_cache_bytes),
@@ -197,9 +200,8 @@ class Daemon {
           "the data folder is a copy of another daemon's: this daemon gets a new identity "
           "and waits until the leases of the original expire");
     }
+    state_disk_limits();
     if (live_.get().roles.serves) {
-      if (const auto kept = write_quota(live_.get().data, live_.get().quota_bytes); !kept)
-        events_.event(Severity::kWarning, kept.error().message);
       if (auto bound = listen(public_, live_.get().listen, live_.get().port_file, ""); !bound)
         return bound;
     }
@@ -211,7 +213,7 @@ class Daemon {
       scans_.jobs().when_ended([this](const JobStatus& job) { tell_of(job); });
     if (!live_.get().purge_urls.empty()) {
       installation_.catalogue->when_hidden(
-          [this](std::vector<Sha256> chunks) { purge_.forget(std::move(chunks)); });
+          [this](std::vector<Sha256> chunks) { purge_.forget_hidden(std::move(chunks)); });
     }
     claims_->start(scans_.names());
     return scans_.start();
@@ -234,18 +236,16 @@ class Daemon {
     });
     wait_for_signal();
     wait_for_reload();
-    if (live_.get().roles.serves) public_.start();
     admin_.start();
     collector_.start(kCollectEvery);
     scrubber_.start(live_.get().scrub_rate);
-    // Closes the files of withdrawn, replaced and removed models, even if no requests arrive.
+    services_.order_posters = [this](const ModelId& model) { posters_.add(model); };
     if (live_.get().roles.serves) {
-      model_check_.emplace(kModelCheckEvery, events_,
-                           [this] { static_cast<void>(models_.revision()); });
-    }
-    if (live_.get().roles.serves)
+      public_.start();
+      model_check_.emplace(kModelCheckEvery, events_, [this] { check_models(); });
       visit_flush_.emplace(kVisitFlushEvery, events_, [this] { flush_visits(); });
-    services_.ready = true;
+    }
+    services_.is_ready = true;
     tell_service_manager(ServicePhase::kReady);
     keep_watchdog();
     std::vector<std::thread> threads;
@@ -273,7 +273,7 @@ class Daemon {
   }
 
  private:
-  // Serves connections until the daemon stops. An uncaught exception, such as lack of memory, ends
+  // Serves connections until the daemon stops. An uncaught exception, such as std::bad_alloc, ends
   // one connection, not all.
   void serve_connections() {
     for (;;) {
@@ -284,6 +284,14 @@ class Daemon {
         events_.event(Severity::kError, fault.what());
       }
     }
+  }
+
+  // Even without requests, closes the files of models that visitors no longer see, and makes
+  // missing posters. If opening copies the file, such as from S3, makes those of open models only.
+  void check_models() {
+    static_cast<void>(models_.revision());
+    for (const ModelId& model : new_files_.find())
+      if (!installation_.store->keeps_copies() || models_.cached(model)) posters_.add(model);
   }
 
   void flush_visits() {
@@ -370,7 +378,7 @@ class Daemon {
     reload_signals_.async_wait([this](const boost::system::error_code& error, int signal) {
       if (error) return;
       if (signal == SIGHUP && at_terminal_ &&
-          // standard input is no terminal, so the terminal was closed
+          // If standard input is no longer a terminal, the terminal was closed.
           ::isatty(STDIN_FILENO) == 0) {
         signals_.cancel();
         return drain();
@@ -381,7 +389,7 @@ class Daemon {
     });
   }
 
-  // Reads the configuration again. Performs all steps that can fail before it changes anything.
+  // Reads the configuration again. Takes all steps that can fail before the first change.
   void reload() {
     tell_service_manager(ServicePhase::kReloading);
     if (const auto done = try_reload(); !done) {
@@ -407,8 +415,14 @@ class Daemon {
     return {};
   }
 
+  void state_disk_limits() {
+    const auto stated = write_limits(live_.get().data, disk_limits_of(live_.get()));
+    if (!stated) events_.event(Severity::kWarning, stated.error().message);
+  }
+
   void apply_limits() {
     const Settings& now = live_.get();
+    state_disk_limits();
     exports_.set_capacity(now.export_cache_bytes);
     models_.set_capacity(now.model_cache_bytes);
     const std::size_t connections = connections_within_limit(now.max_connections);
@@ -443,7 +457,7 @@ class Daemon {
   }
 
   void drain() {
-    services_.ready = false;
+    services_.is_ready = false;
     reload_signals_.cancel();  // reload signals are ignored from now on
     tell_service_manager(ServicePhase::kStopping);
     events_.event(Severity::kInfo, "stopping: finishing open transfers");
@@ -460,7 +474,7 @@ class Daemon {
     public_.drain([this] { io_.stop(); });
   }
 
-  // Once the daemon waits for signals, only handlers on the strand `control_` use `configuration_`.
+  // `configuration_` is used only on the strand `control_` once the daemon waits for signals.
   Configuration configuration_;
   LiveSettings live_;
   const std::shared_ptr<LiveTls> tls_;  // null if the daemon does not use TLS
@@ -480,6 +494,7 @@ class Daemon {
   Scrubber scrubber_;
   ScanService scans_;
   ExportCache exports_;
+  NewPublicFiles new_files_{*installation_.catalogue};  // used only by check_models()
   const WebPages pages_;
   Metrics metrics_;
   VisitCounter visits_;
@@ -489,6 +504,8 @@ class Daemon {
   const unsigned threads_;
   asio::io_context io_;
   Workers workers_;
+  PosterQueue posters_{workers_, io_, events_,
+                       [this](const ModelId& model) { return make_posters(model, services_); }};
   HttpServer public_;
   HttpServer admin_;
   asio::strand<asio::io_context::executor_type> control_;  // runs the handlers of the members below

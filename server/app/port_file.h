@@ -9,8 +9,8 @@
 
 namespace vitrine::server {
 
-// Writes the port and a newline. Other programs never see an incomplete file. Returns at once
-// if the path is empty.
+// Writes the port and a newline. Other programs never see an incomplete file. Writes no file if the
+// path is empty.
 Expected<void> write_port_file(const std::filesystem::path& file, std::uint16_t port);
 
 }  // namespace vitrine::server

@@ -9,8 +9,8 @@
 namespace vitrine::server {
 namespace {
 
-// Returns the message that reports a reload. It contains the present time, which systemd compares
-// with the time at which it sent the reload signal (Type=notify-reload).
+// Returns the message that reports a reload. It contains the current time, because systemd compares
+// it with the time of its reload signal (Type=notify-reload).
 std::string reloading() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",

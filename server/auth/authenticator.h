@@ -30,8 +30,8 @@ struct NewToken {
 // line, and with kIo if the catalogue fails.
 Expected<NewToken> create_token(Catalogue& catalogue, Role role, std::string label);
 
-// Caches each valid token for the time kMemory. If another process revokes a token, this one may
-// therefore still accept it for up to kMemory. Thread-safe.
+// Authenticates callers. Caches each valid token for kMemory, so that a token that another process
+// revokes may still be accepted for up to kMemory. Thread-safe.
 class Authenticator {
  public:
   using Clock = std::chrono::steady_clock;
@@ -45,25 +45,24 @@ class Authenticator {
 
   // Looks up the token `text` in the cache. Returns nullopt if the caller must use find(). When an
   // entry is older than half of kMemory, one call returns nullopt, so that its caller refreshes the
-  // entry while other calls still use it.
+  // entry. Other calls still get the entry in the meantime.
   std::optional<Caller> cached(std::string_view text, Clock::time_point now = Clock::now());
 
   // Whether the token has not been revoked. Fails with kIo if the catalogue fails.
   Expected<bool> is_in_force(const Caller& caller, Clock::time_point now = Clock::now());
 
-  // Clears the cache, so that a token that this process has revoked is refused from the next call
-  // on.
+  // Clears the cache, so that the next call refuses a token that this process has just revoked.
   void forget();
 
-  // The throttle of failed authentications. Callers with a valid token are never throttled: behind
-  // a proxy, operators and strangers may share an address, and an emergency stop must get through.
+  // Limits failed authentications. Callers with a valid token are never limited: behind a proxy,
+  // operators and strangers may share an address, and an emergency stop must always work.
   Throttle& throttle() { return throttle_; }
 
  private:
   struct Memory {
     Caller caller;
-    Clock::time_point asked;      // time of the last look-up in the catalogue
-    bool is_being_asked = false;  // whether a caller is repeating the look-up
+    Clock::time_point asked;      // time of the last lookup in the catalogue
+    bool is_being_asked = false;  // whether a caller is repeating the lookup
   };
   struct HashOfHash {
     std::size_t operator()(const Sha256& hash) const noexcept;
@@ -76,7 +75,7 @@ class Authenticator {
   Catalogue& catalogue_;
   Throttle throttle_;
   std::mutex mutex_;  // guards the members below
-  // Number of forget() calls. A look-up that began before the last forget() is stale.
+  // Number of forget() calls. The result of a lookup is stale if forget() was called meanwhile.
   std::uint64_t forgotten_ = 0;
   std::unordered_map<Sha256, Memory, HashOfHash> held_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A queue that serves its owners in turn. An owner with many items delays the next item of each
-// other owner by one item only.
+// A queue that serves its owners in turn. Even an owner with many items delays each item of another
+// owner by at most one item.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace vitrine::server {
 
-// Each item belongs to a round, and each owner has at most one new item in a round. Rounds are
-// served one after the other, the items of a round in the order of their arrival. Not thread-safe.
+// Each owner has at most one item in a round. The queue serves the rounds one after the other, and
+// the items of a round in order of arrival. Not thread-safe.
 template <class Item>
 class FairQueue {
  public:
@@ -30,7 +30,7 @@ class FairQueue {
         std::ranges::find_if(items_, [&](const auto& entry) { return is_ready(entry.second); });
     if (next == items_.end()) return std::nullopt;
     round_ = std::max(round_, next->first.first);
-    // Forgets owners whose last item was in an earlier round. Their next item joins the current
+    // Forgets owners whose last item was in an earlier round; their next items join the current
     // round.
     std::erase_if(last_round_, [this](const auto& owner) { return owner.second < round_; });
     std::optional<Item> item = std::move(next->second);
@@ -39,10 +39,10 @@ class FairQueue {
   }
 
  private:
-  // key: round, then order of arrival
+  // The key is the round and the order of arrival.
   std::map<std::pair<std::uint64_t, std::uint64_t>, Item> items_;
   std::map<std::string, std::uint64_t>
-      last_round_;  // per owner: its last round, if that is `round_` or later
+      last_round_;  // each owner's last round; erased if it is before `round_`
   std::uint64_t round_ = 1, arrivals_ = 0;
 };
 

@@ -19,7 +19,7 @@ constexpr std::size_t kLength = 4 + 43;  // "vtr_", and 43 base64url digits for 
 
 std::string generate_token() {
   std::array<std::uint8_t, 32> bytes;
-  // getrandom() always fills requests of up to 256 bytes once the machine has started.
+  // A request of up to 256 bytes is always filled completely (getrandom(2)).
   if (::getrandom(bytes.data(), bytes.size(), 0) != std::ssize(bytes)) std::abort();
   std::string text(kPrefix);
   std::uint32_t window = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The text of an access token: "vtr_" and 32 random bytes in base64url without padding. A client
-// that sends the text gets the token's role. The installation stores only the SHA-256 of the text.
-// The bytes are random, so neither a salt nor a slow hash is needed.
+// that sends the text gets the token's role. The server stores only the SHA-256 of the text. The
+// bytes are random, so the hash needs neither a salt nor a slow algorithm.
 #pragma once
 
 #include <optional>

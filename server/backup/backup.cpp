@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The archive that is being written, its files' checksums, and the report.
+// The archive that is being written, the checksums of its files, and the report.
 class Archive {
  public:
   explicit Archive(TarWriter tar) : tar_(std::move(tar)) {}
@@ -38,7 +38,7 @@ class Archive {
   Expected<void> add(const std::string& name, const std::string& text) {
     return add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   }
-  // Notes that the installation has lost an object. `state` is "damaged" or "missing".
+  // Records that the installation has lost an object. `state` is "damaged" or "missing".
   void note_loss(const NamedFile& object, std::string_view state) {
     lost_[object_path(object.file)] = object.file;
     report.damaged.push_back(fmt::format("{} of model {} is {}", object_path(object.file),
@@ -108,7 +108,7 @@ Expected<Objects> open_objects(const FileStore& store, const fs::path& snapshot,
 }
 
 // Copies the catalogue to `snapshot`, and opens the objects that the copy names. Holds the store's
-// lock in the meantime, so that no object is removed.
+// lock during both steps, so that no object is removed.
 Expected<Objects> freeze(const fs::path& data, const fs::path& snapshot, BackupReport& report) {
   auto store = FileStore::open(data / "objects");
   if (!store) return tl::unexpected(store.error());
@@ -119,8 +119,8 @@ Expected<Objects> freeze(const fs::path& data, const fs::path& snapshot, BackupR
   return open_objects(*store, snapshot, report);
 }
 
-// Adds an object. If it is missing, cannot be read or does not have its hash, notes the loss
-// instead.
+// Adds an object to the archive. If the object is missing, unreadable or does not have its hash,
+// records the loss instead.
 Expected<void> add_object(Archive& archive, const OpenObject& open) {
   if (open.object == nullptr) {
     archive.note_loss(open.file, "missing");
@@ -134,8 +134,8 @@ Expected<void> add_object(Archive& archive, const OpenObject& open) {
   return archive.add(object_path(open.file.file), *bytes);
 }
 
-// Adds the files of all scans, except files and folders whose names begin with a dot: these are
-// being written or deleted.
+// Adds the files of all scans. Skips files and folders whose names begin with a dot, because these
+// are being written or deleted.
 Expected<void> add_scans(Archive& archive, const fs::path& data) {
   std::error_code error;
   fs::recursive_directory_iterator at(data / "scans", error);
@@ -144,7 +144,7 @@ Expected<void> add_scans(Archive& archive, const fs::path& data) {
     if (is_hidden) at.disable_recursion_pending();
     if (is_hidden || !fs::is_regular_file(at->symlink_status())) continue;
     const auto bytes = read_file(at->path(), TarReader::kMaxFile);
-    // skips a file that was removed during the backup
+    // Skips a file that was removed during the backup.
     if (!bytes && !fs::exists(at->path())) continue;
     const std::string name = at->path().lexically_relative(data).generic_string();
     if (!bytes) {

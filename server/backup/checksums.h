@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes the list of a backup's files with their hashes, in the format of sha256sum(1).
+// Reads and writes the list of the files in a backup and their hashes, in the format of
+// sha256sum(1).
 #pragma once
 
 #include <map>
@@ -13,13 +14,13 @@
 namespace vitrine::server {
 
 inline constexpr std::string_view kChecksums = "SHA256SUMS";
-// Name of the file in a backup that lists the objects that the installation had already lost.
+// Name of the list of objects that were damaged or missing when the backup was made.
 inline constexpr std::string_view kDamagedList = "DAMAGED";
 
 // Returns the path of an object, which is the same in a backup and in a data folder.
 std::string object_path(const Sha256& name);
 
-// SHA-256 of each file by its path in the archive.
+// Maps the path of each file in the archive to the file's SHA-256.
 using Checksums = std::map<std::string, Sha256>;
 
 std::string to_text(const Checksums& sums);

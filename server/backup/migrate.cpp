@@ -55,7 +55,7 @@ bool are_same_folder(const Installation& a, const Installation& b) {
   return std::filesystem::equivalent(a.place.folder, b.place.folder, unknown);
 }
 
-// Whether both installations store their files in the same folder. If so, one lock covers both.
+// Whether both installations store their files in the same folder, so that one lock covers both.
 bool share_files(const Installation& a, const Installation& b) {
   return a.place.store.empty() && b.place.store.empty() && are_same_folder(a, b);
 }
@@ -67,8 +67,8 @@ bool are_same(const Installation& a, const Installation& b) {
 
 }  // namespace
 
-// If a file is removed from the source during the migration, its copy remains at the destination
-// until the garbage collection there removes it.
+// If a file is removed from the source during the migration, its copy stays at the destination
+// until the destination's garbage collection.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress) {
   if (are_same(from, to))

@@ -13,16 +13,16 @@ struct MigrationReport {
   std::uint64_t bytes = 0;  // total size of the files
 };
 
-// Called after each copied file with the number of files copied so far and the number of all files.
+// Called after each copied file with the number of copied files and the total number of files.
 using MigrationProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 // Copies the installation `from` into `to`. First copies the files and checks the SHA-256 of each
-// on both sides. Then blocks publishing on both sides, copies the files that were added meanwhile,
-// and copies the whole catalogue in one transaction. The destination shows no model before that
-// transaction. After an interruption, call the function again; it checks files that exist already
-// instead of copying them again. Copies neither uploads nor the data of scans, which stay in their
-// data folder. Fails with kState if the destination contains other data or a file is damaged, and
-// with kIo if a store or a catalogue fails.
+// file on both sides. Then blocks publishing on both sides, copies the files that were added
+// meanwhile, and copies the whole catalogue in one transaction. The destination shows no model
+// before that transaction. After an interruption, call the function again: it checks files that
+// exist already instead of copying them. Does not copy uploads and the data of scans, which stay in
+// their data folder. Fails with kState if the destination contains other data or a file is damaged,
+// and with kIo if a store or a catalogue fails.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress);
 

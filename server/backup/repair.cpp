@@ -14,8 +14,9 @@ Expected<void> put_back(Installation& installation, const Sha256& name,
   return put ? Expected<void>() : tl::unexpected(put.error());
 }
 
-// Increments the versions of all models with this file, so that daemons open the repaired file. If
-// another caller changes a model at the same time, the model has a new version already.
+// Increments the versions of all models with this file, so that daemons open the repaired file.
+// Ignores kState: it means that another caller has changed the model, which then has a new version
+// already.
 Expected<void> tell_daemons(Catalogue& catalogue, const Sha256& name) {
   const auto files = catalogue.files();
   if (!files) return tl::unexpected(files.error());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts damaged and missing objects of an installation back from intact copies.
+// Replaces damaged and missing objects of an installation by intact copies.
 #pragma once
 
 #include <filesystem>
@@ -17,16 +17,16 @@ namespace vitrine::server {
 using TakeCopy =
     std::function<Expected<void>(const Sha256& name, std::span<const std::uint8_t> bytes)>;
 
-// Passes to `take` each wanted object that the source has with its correct SHA-256.
+// Calls `take` for each wanted object of which the source has an intact copy.
 using CopySource =
     std::function<Expected<void>(const std::set<Sha256>& wanted, const TakeCopy& take)>;
 
-// Returns a source of the copies in a backup. The source fails with kBadInput if the file is not a
-// backup, and with kIo if it cannot be read.
+// Returns a source that reads the copies in a backup. The source fails with kBadInput if the file
+// is not a backup, and with kIo if the file cannot be read.
 CopySource copies_in_backup(const std::filesystem::path& file);
 
-// Returns a source of the copies in another store, which must outlive the result. The source fails
-// with kIo.
+// Returns a source that reads the copies in another store, which must outlive the result. The
+// source fails with kIo.
 CopySource copies_in_store(const ObjectStore& store);
 
 struct RepairReport {
@@ -36,9 +36,9 @@ struct RepairReport {
       damaged;  // objects that are still damaged or missing because the source has no intact copy
 };
 
-// Checks all objects of the installation, and replaces those that are damaged or missing by copies
-// from `source`. Daemons may serve the installation in the meantime; they serve the repaired models
-// at once. Fails with kIo if a store or the catalogue fails, and with kBadInput if the source is
+// Checks all objects of the installation, and replaces damaged and missing objects by copies from
+// `source`. Daemons may serve the installation during the repair, and serve repaired models at
+// once. Fails with kIo if a store or the catalogue fails, and with kBadInput if the source is
 // malformed.
 Expected<RepairReport> repair(Installation& installation, const CopySource& source);
 

@@ -52,7 +52,7 @@ class Restoration {
   Restoration(fs::path file, fs::path data) : file_(std::move(file)), data_(std::move(data)) {}
 
   Expected<BackupReport> run() {
-    // not checked, because unpack() fails as well if the folder could not be created
+    // The error is ignored, because unpack() also fails if the folder could not be created.
     std::error_code error;
     const bool made = create_private_folder(data_, error);
     auto done = unpack();
@@ -105,7 +105,7 @@ class Restoration {
     return damaged(entry.name, "does not belong in a backup");
   }
 
-  // Only the owner may read the catalogue, because it contains hashes of tokens, and drafts.
+  // The catalogue contains hashes of tokens, and drafts, so only the owner may read it.
   Expected<void> take_catalogue(const TarEntry& entry) {
     if (auto written = write_file_atomically(unnamed(), entry.bytes); !written) return written;
     std::error_code error;
@@ -127,7 +127,7 @@ class Restoration {
   Expected<void> take_scan(const TarEntry& entry) {
     const fs::path path = data_ / entry.name;
     std::error_code error;
-    // if this fails, writing the file fails as well
+    // An error is ignored, because writing the file then fails as well.
     fs::create_directories(path.parent_path(), error);
     return write_file_atomically(path, entry.bytes);
   }
@@ -144,8 +144,8 @@ class Restoration {
     return {};
   }
 
-  // Checks that the store has every file that the catalogue names, apart from files that were
-  // already lost when the backup was made.
+  // Checks that the store has every file that the catalogue names. Accepts that files are missing
+  // if they were already lost when the backup was made.
   Expected<void> check_models(const ObjectStore& store) {
     const auto catalogue = open_sqlite_catalogue(unnamed());
     if (!catalogue) return tl::unexpected(catalogue.error());

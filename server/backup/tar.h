@@ -47,7 +47,7 @@ struct TarEntry {
   std::vector<std::uint8_t> bytes;
 };
 
-// Reads an archive, which may be hostile. Fails with kBadInput if the file is not a tar archive, or
+// Reads an archive, which may be hostile. Fails with kBadInput if the file is not a tar archive,
 // has entries other than regular files, or has a file larger than kMaxFile. Fails with kIo if the
 // file cannot be opened.
 class TarReader {

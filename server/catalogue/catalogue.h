@@ -16,20 +16,16 @@
 #include "codec/core/sha256.h"
 #include "server/catalogue/id.h"
 #include "server/catalogue/jobs.h"
+#include "server/metadata/presentation.h"
 
 namespace vitrine::server {
-
-// Dublin Core elements (ISO 15836) that have no member of their own in ModelRecord.
-inline constexpr std::string_view kDublinCore[] = {
-    "contributor", "coverage", "date",   "description", "identifier", "language",
-    "publisher",   "relation", "source", "subject",     "type"};
 
 enum class ModelState : std::uint8_t { kDraft = 0, kPublished = 1 };
 
 // The pictures of a texture in a .pmesh file. All numbers are 0 if the model has no texture.
 struct TextureSummary {
   std::uint32_t count = 0;         // number of kinds of pictures: base colours, normals, ...
-  std::uint32_t largest_side = 0;  // width and height of the largest picture, in pixels
+  std::uint32_t largest_side = 0;  // side of the largest picture, a square, in pixels
   std::uint64_t bytes = 0;         // total size of all pictures, in all sizes
   bool operator==(const TextureSummary&) const = default;
 };
@@ -50,7 +46,7 @@ struct ModelRecord {
   std::string creator;
   std::string rights;                       // rights statement in words
   std::string licence;                      // SPDX identifier or URL of the licence
-  std::map<std::string, std::string> more;  // Dublin Core elements by name; no value is empty
+  std::map<std::string, std::string> more;  // other metadata texts by name; no value is empty
   std::string unit;                         // unit of the coordinates; empty if unknown
   Sha256 file{};                            // SHA-256 of the .pmesh file
   std::uint64_t file_bytes = 0;
@@ -60,6 +56,10 @@ struct ModelRecord {
   std::optional<double> accuracy = {};         // accuracy of the scan, in `unit`
   std::optional<PublicPart> public_part = {};  // nullopt: the whole model is public
   std::uint64_t version = 0;                   // increases with each change
+  // Repairs and losses of the build of the file, one line for each kind. Empty if there were none,
+  // or if they are unknown.
+  std::string repairs = {};
+  Presentation presentation = {};
 };
 
 // A file in the object store that a model refers to.
@@ -77,7 +77,7 @@ inline std::size_t models_in(std::span<const NamedFile> files) {
   return count;
 }
 
-// The position of a block in a stored file: of a chunk, a base mesh, an atlas or a picture.
+// The place of a block (chunk, base mesh, atlas or picture) in a stored file.
 struct ChunkPlace {
   Sha256 chunk{};
   std::uint64_t offset = 0, length = 0;
@@ -99,8 +99,20 @@ struct TokenRecord {
   std::int64_t created = 0;  // milliseconds since 1970, UTC
 };
 
+// The metadata texts by which visitors can filter a search. A text with semicolons has several
+// values.
+inline constexpr std::string_view kFacetNames[] = {"subject",  "creator", "period",
+                                                   "material", "licence", "collection"};
+inline constexpr std::uint32_t kMostFacetValues = 30;  // largest number of values per facet
+
+enum class ModelOrdering : std::uint8_t { kNewest = 0, kOldest = 1, kTitle = 2, kCreator = 3 };
+
 struct ModelQuery {
-  std::string text;              // words that must all occur in title or creator; empty: all models
+  // Search words. Each must be the beginning of a word in the model's texts, regardless of case and
+  // accents. Empty: all models.
+  std::string text;
+  std::map<std::string, std::string> facets = {};  // required values by facet name
+  ModelOrdering ordering = ModelOrdering::kNewest;
   std::optional<ModelId> after;  // the cursor: `next` of the previous page
   std::uint32_t limit = 50;      // 1..kMaxPage
   bool includes_drafts = false;  // whether the result includes drafts
@@ -108,8 +120,47 @@ struct ModelQuery {
 inline constexpr std::uint32_t kMaxPage = 200;
 
 struct ModelPage {
-  std::vector<ModelRecord> models;  // newest first
-  std::optional<ModelId> next;      // nullopt on the last page
+  std::vector<ModelRecord> models;
+  std::optional<ModelId> next;  // nullopt on the last page
+};
+
+struct FacetCount {
+  std::string name, value;
+  std::uint64_t models = 0;
+  bool operator==(const FacetCount&) const = default;
+};
+
+struct Facets {
+  std::uint64_t models = 0;  // number of all models that the query finds
+  // For each facet, in the order of the names, its most frequent values among these models.
+  std::vector<FacetCount> counts = {};
+};
+
+// The place of a published model in the order in which harvesters read the catalogue: by the time
+// of the last change, then by ID.
+struct HarvestPlace {
+  std::int64_t changed = 0;  // seconds since 1970, UTC
+  ModelId model;
+  bool operator==(const HarvestPlace&) const = default;
+};
+
+struct HarvestQuery {
+  std::optional<ModelId> model = {};                  // only this model
+  std::optional<std::int64_t> from = {}, until = {};  // range of `changed`, both inclusive
+  std::string collection = {};                        // only models of this collection; empty: all
+  std::optional<HarvestPlace> after = {};  // place of the last model of the previous page
+  std::uint32_t limit = 50;                // 1..kMaxPage
+};
+
+struct HarvestedModel {
+  ModelRecord model;
+  std::int64_t changed = 0;
+};
+
+struct Harvest {
+  std::vector<HarvestedModel> models;
+  std::uint64_t all = 0;  // number of models on all pages; 0 if the query has `after`
+  std::int64_t now = 0;   // time at which the rows were read, by the same clock as `changed`
 };
 
 // Safe to use from several threads at once, and by several processes on the same data. All
@@ -128,10 +179,10 @@ class Catalogue {
   // Publishes a model or makes it a draft. Fails with kState if the model does not exist.
   virtual Expected<void> set_state(const ModelId& id, ModelState state) = 0;
 
-  // Replaces the record of a model, except `created`, and increments its version. Replaces its
-  // chunks, too, if `chunks` are given. If `by` is given, the same transaction stores the model's
-  // ID in the record of that job. Fails with kState if the model does not exist, or if its version
-  // is not `model.version` because another caller has changed it.
+  // Replaces the record of a model, except `created`, and increments its version. If `chunks` are
+  // given, also replaces the model's chunks. If `by` is given, the same transaction stores the
+  // model's ID in the record of that job. Fails with kState if the model does not exist, or if its
+  // version is not `model.version` because another caller has changed the model.
   virtual Expected<void> update(const ModelRecord& model,
                                 std::optional<std::span<const ChunkPlace>> chunks,
                                 const std::optional<JobClaim>& by = std::nullopt) = 0;
@@ -150,10 +201,30 @@ class Catalogue {
   // nullopt.
   virtual Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) = 0;
 
+  // Returns one page of the models found. The page is empty if the models are ordered by title or
+  // creator and the model `query.after` was removed meanwhile.
   virtual Expected<ModelPage> search(const ModelQuery& query) = 0;
+
+  // Lists the published models, newest first, in pages of `size`, and returns the cursors of all
+  // pages except the first. Reads only the IDs of the models.
+  virtual Expected<std::vector<ModelId>> page_cursors(std::uint32_t size) = 0;
+
+  // Counts the facet values of all models that the query finds, on all pages.
+  virtual Expected<Facets> facets(const ModelQuery& query) = 0;
+
+  // Returns published models, those first whose last change was earliest. A model that changes
+  // while a harvester reads the pages moves to the end, so the harvester does not miss it.
+  virtual Expected<Harvest> harvest(const HarvestQuery& query) = 0;
+
+  // Returns the collections of all published models, ordered by the bytes of their names.
+  virtual Expected<std::vector<std::string>> collections() = 0;
 
   // Returns the location of a chunk's bytes, or nullopt if no published model has the chunk.
   virtual Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) = 0;
+
+  // Returns the blocks that visitors can request of a published model. The result is empty if the
+  // model is a draft or does not exist.
+  virtual Expected<std::vector<Sha256>> public_chunks(const ModelId& id) = 0;
 
   // Adds a token. Fails with kState if a token with this ID or this hash exists.
   virtual Expected<void> add_token(const TokenRecord& token) = 0;
@@ -162,7 +233,7 @@ class Catalogue {
   // `hash`. The caller compares the remaining bytes in constant time.
   virtual Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) = 0;
 
-  // tokens that are not revoked, oldest first
+  // Returns the tokens that are not revoked, oldest first.
   virtual Expected<std::vector<TokenRecord>> tokens() = 0;
 
   // Revokes a token; this cannot be undone. Fails with kState if the token does not exist or is
@@ -173,9 +244,9 @@ class Catalogue {
   // Data cached from the catalogue is valid as long as the number stays the same.
   virtual Expected<std::uint64_t> revision() = 0;
 
-  // Sets the function to call after this object has withdrawn or removed a published model, or has
-  // replaced its chunks. The function receives the model's previous chunks; other published models
-  // may still have some of them. Call this before other threads use the catalogue.
+  // Sets the function that is called after a published model was withdrawn, removed or given other
+  // chunks by this object. The function receives the model's previous chunks, some of which other
+  // published models may still have. Call when_hidden() before other threads use the catalogue.
   using ChunksHidden = std::function<void(std::vector<Sha256> chunks)>;
   virtual void when_hidden(ChunksHidden hidden) = 0;
 };

@@ -15,14 +15,15 @@ struct Table {
   std::string_view name, key, columns;
 };
 
-// The tables in the order of copying. A table comes after all tables that its foreign keys refer
-// to.
+// The tables in the order of copying. Each table comes after the tables that its foreign keys
+// reference.
 constexpr Table kTables[] = {
     {"model", "id",
      "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
      "faces, vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes, "
      "public_head_bytes, public_faces, public_vertices, texture_count, texture_side, "
-     "texture_bytes, public_texture_count, public_texture_side, public_texture_bytes"},
+     "texture_bytes, public_texture_count, public_texture_side, public_texture_bytes, repairs, "
+     "presentation"},
     {"chunk", "sha256, model", "sha256, model, \"offset\", length"},
     {"visit", "model, day", "model, day, visits, seconds, levels, complete"},
     {"job", "id",

@@ -21,7 +21,7 @@ Ulid generate_ulid() {
       std::chrono::duration_cast<std::chrono::milliseconds>(since_epoch).count());
   for (std::size_t i = 6; i-- > 0; time >>= 8)
     id[i] = static_cast<std::uint8_t>(time);
-  // getrandom() always fills requests of up to 256 bytes once the machine has started.
+  // A request of up to 256 bytes is always filled completely (getrandom(2)).
   if (::getrandom(&id[6], 10, 0) != 10) std::abort();
   return id;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types for the IDs of models, jobs, scans, uploads and tokens, which do not convert into each
-// other. An ID is a ULID: 48 bits of milliseconds since 1970 and 80 random bits, written as 26
-// lower-case digits of Crockford's base 32. IDs sort by time of creation. Text from a client
-// becomes an ID only through `parse`, so that unchecked text never reaches a path or a query.
+// Separate types for the IDs of models, jobs, scans, uploads and tokens, so that IDs of different
+// kinds cannot be confused. An ID is a ULID: 48 bits of milliseconds since 1970 and 80 random bits,
+// written as 26 lower-case digits of Crockford's base 32. IDs sort by time of creation. Text from a
+// client becomes an ID only through `parse`, so that unchecked text never reaches a path or a
+// query.
 #pragma once
 
 #include <array>

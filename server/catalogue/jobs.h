@@ -51,24 +51,24 @@ struct JobRecord {
   // Times in milliseconds since 1970, UTC. `ended` is 0 until the job ends.
   std::int64_t created = 0, ended = 0;
   std::string webhook = {};  // URL that is called when the job ends; empty: none
-  // Number of times that a daemon has started the job since a run of it last ended properly. More
-  // than 1 if a daemon died during the job.
+  // Number of runs that were started since a run last ended properly. More than 1 if a daemon died
+  // during a run.
   std::uint32_t attempts = 0;
   // Increases each time a daemon claims the job, or a client cancels it while no daemon works on
-  // it. A write with an earlier value is refused.
+  // it. A write with a smaller value is refused.
   std::uint64_t fence = 0;
-  // The build's repairs and losses, one line for each kind; empty if there were none.
+  // Repairs and losses of the build, one line for each kind. Empty if there were none.
   std::string repairs = {};
-  // Determines whose jobs take turns on the builders: the ID of the token that uploaded the file.
-  // Empty for jobs without an upload.
+  // ID of the token that uploaded the job's file. Daemons that build models serve the jobs of
+  // different owners in turn. Empty for jobs without an upload.
   std::string owner = {};
 
   bool operator==(const JobRecord&) const = default;
 };
 
-// The quality of the camera's pictures of a scan. The members are shares of picture rows, from 0 to
-// 1. `empty` is the share of all rows that show no laser stripe. `saturated` and `doubled` are
-// shares of the rows with a stripe: the saturated rows, and the rows with two stripes.
+// The quality of the camera's pictures during a scan. The members are shares of picture rows, from
+// 0 to 1. `empty` is the share of all rows that show no laser stripe. `saturated` and `doubled` are
+// shares of the rows that show a stripe: rows that are saturated, and rows with two stripes.
 struct ScannedRows {
   double empty = 0, saturated = 0, doubled = 0;
 
@@ -88,10 +88,10 @@ struct ScanEntry {
   std::optional<ModelId> model;
   std::int64_t created = 0;
   std::optional<ScannedRows> rows;  // nullopt: not known yet
-  // The ID of the revolution of the table that the scan measures. The scan's data folder stores the
-  // ID of the revolution whose steps it contains. If the two differ, another daemon has measured
-  // the scan since, and the steps in the folder cannot be used. Empty if an earlier version of
-  // Vitrine began the scan.
+  // ID of the turntable revolution that the scan measures. The scan's data folder stores the ID of
+  // the revolution whose steps the folder contains. If the two IDs differ, another daemon has
+  // measured the scan since, and the steps in the folder cannot be used. Empty if an earlier
+  // version of Vitrine began the scan.
   std::string revolution = {};
   // The hash of the geometry that was built from the scan as `model` (geometry_hash()). nullopt if
   // it is not known. In that case, clients without a token do not see the scan, because `model` may
@@ -135,8 +135,8 @@ struct Lease {
 // The daemon that drives a scanner, or drove it last.
 struct ScannerDriver {
   std::string scanner, holder;
-  // URL at which other daemons reach this daemon, "http://HOST:PORT". Empty if they cannot reach
-  // it.
+  // URL at which other daemons reach this daemon, "http://HOST:PORT". Empty if other daemons cannot
+  // reach it.
   std::string address;
   bool is_current = false;  // whether the driver's lease is still valid
 };
@@ -148,25 +148,25 @@ class JobCatalogue {
  public:
   virtual ~JobCatalogue() = default;
 
-  // Adds a job and, if `key` is given, its idempotency key. If `scan` is given, adds that scan, or
-  // replaces the scan with the same ID. Uses one transaction. Fails with kState if the job's ID or
-  // the key exists already.
+  // Adds a job in one transaction. If `key` is given, adds the job's idempotency key, too. If
+  // `scan` is given, adds that scan or replaces the scan with the same ID. Fails with kState if the
+  // job's ID or the key exists already.
   virtual Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                              const std::optional<IdempotencyKey>& key) = 0;
 
-  // Both overloads of update() replace the record of a job, or of a scan that the job `by`
-  // measures. The lease of a job ends unless the new state is kRunning. Fails with kState if the
-  // record does not exist, or if another daemon has claimed or ended the job since it was read.
+  // Both overloads replace a stored record. `by` is the claim of the job that measures the scan.
+  // The lease of a job ends unless the new state is kRunning. Fails with kState if the record does
+  // not exist, or if another daemon has claimed or ended the job since it was read.
   virtual Expected<void> update(const JobRecord& job) = 0;
   virtual Expected<void> update(const ScanEntry& scan, const JobClaim& by) = 0;
 
   // Claims a job: sets its state to running, increments its fence and starts a lease. Returns
-  // nullopt unless the job is queued, or is running with an expired lease. A cancellation that was
-  // requested before stays requested.
+  // nullopt unless the job is queued, or is running with an expired lease. The claim does not
+  // withdraw an earlier request to cancel the job.
   virtual Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) = 0;
-  // Returns jobs of these kinds that can be claimed, at most `limit`. Owners take turns: an owner
-  // with fewer running and returned jobs comes first, then the older job. The jobs of each scanner
-  // count separately. Includes jobs whose lease has expired only if `overdue` is true.
+  // Returns at most `limit` jobs of these kinds that can be claimed. Owners take turns: the owner
+  // with the fewest running and already returned jobs comes first, and then the oldest job. Counts
+  // the jobs of each scanner separately. Returns jobs with an expired lease only if `overdue`.
   virtual Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
                                                         std::uint32_t limit, bool overdue) = 0;
   // Renews the lease of a job and stores its stage and progress. Returns true if a cancellation was
@@ -174,19 +174,20 @@ class JobCatalogue {
   // then abandon the job.
   virtual Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) = 0;
   // Cancels a job. If no daemon works on the job, ends the job at time `now`. Its state is then
-  // kCancelled, or kDone if a daemon had stored the job's model before it died. If a daemon works
-  // on the job, that daemon receives the request when it renews its lease. Returns the changed job.
-  // Fails with kState if the job does not exist or has ended.
+  // kCancelled, or kDone if a daemon had stored the job's model before that daemon died. If a
+  // daemon works on the job, that daemon receives the request when it renews its lease. Returns the
+  // changed job. Fails with kState if the job does not exist or has ended.
   virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
   // Ends the leases of all jobs of `holder`, a daemon that no longer works on them.
   virtual Expected<void> drop_leases(const std::string& holder) = 0;
 
-  // Acquires a scanner for `lease.holder`. Each success begins a new epoch of the scanner, whose
-  // number is returned. Returns nullopt if another holder's lease is valid.
+  // Acquires a scanner for `lease.holder`, and returns the number of the new epoch that begins.
+  // Returns nullopt if another holder's lease is valid.
   virtual Expected<std::optional<std::uint64_t>> take_scanner(const std::string& scanner,
                                                               const Lease& lease,
                                                               const std::string& address) = 0;
-  // Renews the lease on a scanner. Fails with kState if a later epoch has begun.
+  // Renews the lease on a scanner. Fails with kState if the scanner was acquired again in a later
+  // epoch.
   virtual Expected<void> renew_scanner(const std::string& scanner, std::uint64_t epoch,
                                        std::chrono::milliseconds lease) = 0;
   // Releases all scanners of `holder`.
@@ -221,9 +222,9 @@ class JobCatalogue {
   };
   virtual Expected<std::optional<Earlier>> find_key(const std::string& key) = 0;
 
-  // Removes old keys and jobs in one transaction: the keys of ended jobs that were added before
-  // `keys_before`, and the jobs that ended before `jobs_before`. Both times are in milliseconds
-  // since 1970. Keeps jobs that have not ended and jobs that a scan or a key refers to. Returns the
+  // Removes old keys and jobs in one transaction: keys whose jobs have ended and were added before
+  // `keys_before`, and jobs that ended before `jobs_before`. Both times are in milliseconds since
+  // 1970. Keeps jobs that have not ended and jobs that a scan or a key refers to. Returns the
   // number of jobs removed.
   virtual Expected<std::size_t> forget(std::int64_t keys_before, std::int64_t jobs_before) = 0;
 };

@@ -191,9 +191,8 @@ class PostgresStatement final : public sql::Statement {
 
 }  // namespace
 
-// Values in the URL take precedence over the defaults that precede `dbname` in the list of
-// parameters. If the URL is malformed, libpq's message is not reported, because it may quote parts
-// of the password.
+// The values in `url` override the defaults before it in the list of parameters. If the URL is
+// malformed, libpq's message is not reported, because it may quote parts of the password.
 PostgresConnection::PostgresConnection(const std::string& url) {
   PQconninfoOption* const options = PQconninfoParse(url.c_str(), nullptr);
   if (options == nullptr)
@@ -282,6 +281,14 @@ void PostgresConnection::roll_back() noexcept {
   } catch (const sql::Failure&) {  // the server rolls back when the connection ends
     hangs_ = true;
   }
+}
+
+// Quotes each word, so that PostgreSQL does not read it as a query operator.
+std::string PostgresConnection::text_query(std::span<const std::string> words) const {
+  std::string query;
+  for (const std::string& word : words)
+    query += (query.empty() ? "'" : " & '") + word + "':*";
+  return query;
 }
 
 std::uint64_t PostgresConnection::revision() {

@@ -35,19 +35,23 @@ class PostgresConnection final : public sql::DatabaseConnection {
   void begin() override { run("BEGIN"); }
   void roll_back() noexcept override;
   std::uint64_t revision() override;
-  const char* like() const override { return "ILIKE"; }
+  const char* text_condition() const override {
+    return "words @@ to_tsquery('simple', without_marks(?))";
+  }
+  std::string text_query(std::span<const std::string> words) const override;
+  const char* by_bytes() const override { return " COLLATE \"C\""; }
   const char* now() const override {
     return "CAST(extract(epoch FROM statement_timestamp()) * 1000 AS BIGINT)";
   }
   const char* skip_locked() const override { return "FOR UPDATE SKIP LOCKED"; }
 
-  // Acquires the advisory lock with that number. Waits without a timeout while another session
-  // holds the lock.
+  // Acquires the advisory lock `number`. Waits without a timeout while another session holds the
+  // lock.
   void lock(std::int64_t number);
   void unlock(std::int64_t number);
 
-  // Returns the last result of a query. `was_sent` is the value that the PQsend…() function
-  // returned. Throws if the result is an error.
+  // Receives the results of a query and returns the last result. `was_sent` is the value that the
+  // PQsend…() function returned. Throws if the result is an error.
   QueryResult receive(int was_sent, std::optional<std::chrono::seconds> timeout);
   PGconn* handle() const { return handle_.get(); }
 

@@ -14,15 +14,15 @@ namespace vitrine::server::postgres {
 struct OpenDatabase {
   std::shared_ptr<sql::Database> database;
   // Acquires a lock that only one daemon on this database can hold at a time. The lock is lost when
-  // its connection ends; the server closes a connection that is silent for 15 seconds. Fails with
+  // its connection ends. The server closes a connection that is silent for 15 seconds. Fails with
   // kIo.
   std::function<Expected<std::shared_ptr<const ExclusiveLock>>()> lock;
 };
 
 // Opens a database, and creates or migrates its tables. `url`: postgresql://USER@HOST/DATABASE,
 // with any connection parameter of libpq. Fails with kIo if the server is unreachable or refuses
-// the connection. Fails with kUnsupported if a newer version of Vitrine has changed the tables so
-// that this version cannot use them. Error messages do not contain the password.
+// the connection. Fails with kUnsupported if a newer version of Vitrine has changed the tables and
+// this version cannot use them. Error messages do not contain the password.
 Expected<OpenDatabase> open_database(const std::string& url);
 
 }  // namespace vitrine::server::postgres

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The catalogue's database on a PostgreSQL server, used over at most kMostConnections connections.
-// If a connection attempt fails, calls during the next second fail immediately. The first call
-// after that tries to connect again.
+// The catalogue's database on a PostgreSQL server, with at most kMostConnections connections in
+// use. If connecting fails, calls during the next second fail immediately. The first call after
+// that second tries to connect again.
 #pragma once
 
 #include <condition_variable>
@@ -39,11 +39,11 @@ class PostgresDatabase final : public sql::Database,
   // Until this time, calls fail without an attempt to connect, because a recent attempt failed.
   std::chrono::steady_clock::time_point away_until_{};
 
-  // Held by the thread of this process that holds the lock or waits for it. The lock uses a
-  // connection of its own, because its holder needs another connection for queries.
+  // Acquired by the thread of this process that holds the lock or waits for it. The lock has its
+  // own connection, because its holder needs another connection for queries.
   std::binary_semaphore own_turn_{1};
-  // The idle connection for the lock, used only while own_turn_ is acquired. Null if there is none,
-  // and while the lock is held.
+  // The idle connection for the lock, used only by the thread that has acquired own_turn_. Null if
+  // there is no idle connection, and while the lock is held.
   std::unique_ptr<PostgresConnection> locking_;
 };
 

@@ -19,7 +19,7 @@ constexpr Reference kReferences[] = {{"chunk", "model", "model"},
                                      {"scan", "job", "job"},
                                      {"idempotency", "job", "job"}};
 
-// Whether this user may call the extension amcheck.
+// Returns a row if this user may call the functions of the extension amcheck.
 constexpr const char* kHasAmcheck =
     "SELECT 1 WHERE has_function_privilege(to_regprocedure('bt_index_check(regclass)'), 'EXECUTE')";
 constexpr const char* kCheckIndices =
@@ -52,7 +52,7 @@ class FaultFinder {
     return connection_.receive(PQsendQuery(connection_.handle(), sql), std::nullopt);
   }
 
-  // Adds a fault if the query returns a row, or if the server refuses it because of damage.
+  // Adds a fault if the query returns a row, or if the server refuses the query because of damage.
   void expect_none(std::string_view what, const std::string& sql) {
     try {
       const auto rows = ask(sql.c_str());

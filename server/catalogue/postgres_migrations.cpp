@@ -4,9 +4,9 @@
 namespace vitrine::server::postgres {
 namespace {
 
-// The schema changes. Their numbers are independent of those for SQLite. The first step creates the
-// revision number and the tables that SQLite has after its first six steps. The revision counts
-// changes to models and tokens, not the progress of jobs.
+// The schema changes, numbered independently of the changes for SQLite. The first step creates the
+// revision number and the same tables as the first six steps for SQLite. The revision number counts
+// changes to models and tokens, but not the progress of jobs.
 constexpr const char* kSteps[] = {
     R"sql(
 CREATE TABLE model (
@@ -98,6 +98,85 @@ CREATE TABLE visit (
   PRIMARY KEY (model, day)
 );
 CREATE INDEX visit_of_day ON visit(day);
+)sql",
+    R"sql(
+ALTER TABLE model ADD COLUMN repairs TEXT NOT NULL DEFAULT '';
+)sql",
+    // A trigger derives these tables from the rows of `model`. `model_index` has a small row for
+    // each model, with a full-text index of its words. `facet_value` has the values of the facets;
+    // the column `facets` lists their ids.
+    R"sql(
+CREATE TABLE facet_value (
+  id BIGSERIAL PRIMARY KEY, name TEXT NOT NULL, value TEXT NOT NULL COLLATE "C",
+  UNIQUE (name, value)
+);
+CREATE TABLE model_index (
+  model BYTEA PRIMARY KEY REFERENCES model(id) ON DELETE CASCADE, state BIGINT NOT NULL,
+  title TEXT NOT NULL COLLATE "C", creator TEXT NOT NULL COLLATE "C", facets TEXT NOT NULL,
+  words TSVECTOR NOT NULL
+);
+CREATE INDEX model_by_title ON model_index(title, model);
+CREATE INDEX model_by_creator ON model_index(creator, model);
+CREATE INDEX model_by_words ON model_index USING gin(words);
+CREATE FUNCTION without_marks(words TEXT) RETURNS TEXT LANGUAGE plpgsql IMMUTABLE AS $$
+BEGIN
+  IF getdatabaseencoding() != 'UTF8' THEN RETURN lower(words); END IF;
+  RETURN lower(regexp_replace(normalize(words, NFD), '[\u0300-\u036f]', '', 'g'));
+END $$;
+CREATE FUNCTION index_model() RETURNS trigger LANGUAGE plpgsql AS $$
+DECLARE
+  facet RECORD;
+  number BIGINT;
+  numbers TEXT := ' ';
+  texts TEXT := concat_ws(' ', NEW.title, NEW.creator, NEW.rights, NEW.licence,
+    (SELECT string_agg(value, ' ') FROM json_each_text(NEW.more::json)));
+BEGIN
+  FOR facet IN
+    SELECT DISTINCT text.key AS name, btrim(part) COLLATE "C" AS value
+    FROM jsonb_each_text(NEW.more::jsonb ||
+           jsonb_build_object('creator', NEW.creator, 'licence', NEW.licence)) AS text,
+      regexp_split_to_table(text.value, ';') AS part
+    WHERE text.key IN ('subject', 'creator', 'period', 'material', 'licence', 'collection')
+      AND btrim(part) != ''
+    ORDER BY 1, 2
+  LOOP
+    SELECT id INTO number FROM facet_value WHERE name = facet.name AND value = facet.value;
+    IF NOT FOUND THEN
+      INSERT INTO facet_value(name, value) VALUES (facet.name, facet.value)
+        ON CONFLICT (name, value) DO UPDATE SET name = excluded.name RETURNING id INTO number;
+    END IF;
+    numbers := numbers || number || ' ';
+  END LOOP;
+  INSERT INTO model_index VALUES (NEW.id, NEW.state, lower(NEW.title), lower(NEW.creator), numbers,
+    to_tsvector('simple',
+                regexp_replace(without_marks(texts), '[!-/:-@[-`{-~]+', ' ', 'g')))
+    ON CONFLICT (model) DO UPDATE SET state = excluded.state, title = excluded.title,
+      creator = excluded.creator, facets = excluded.facets, words = excluded.words;
+  RETURN NULL;
+END $$;
+CREATE TRIGGER index_model AFTER INSERT OR UPDATE ON model
+  FOR EACH ROW EXECUTE FUNCTION index_model();
+DO $$ BEGIN
+  IF EXISTS (SELECT 1 FROM model) THEN UPDATE model SET id = id; END IF;
+END $$;
+)sql",
+    // The time of a model's last change, in seconds since 1970. The trigger above writes the row of
+    // `model_index` at each change of its model.
+    R"sql(
+ALTER TABLE model_index ADD COLUMN changed BIGINT NOT NULL DEFAULT 0;
+UPDATE model_index SET changed = (SELECT created / 1000 FROM model WHERE id = model);
+CREATE INDEX model_by_change ON model_index(changed, model);
+CREATE FUNCTION note_change() RETURNS trigger LANGUAGE plpgsql AS $$
+BEGIN
+  NEW.changed := floor(extract(epoch FROM clock_timestamp()));
+  RETURN NEW;
+END $$;
+CREATE TRIGGER note_change BEFORE INSERT OR UPDATE ON model_index
+  FOR EACH ROW EXECUTE FUNCTION note_change();
+)sql",
+    // How viewers and exports present a model, as JSON. Empty: as in its file.
+    R"sql(
+ALTER TABLE model ADD COLUMN presentation TEXT NOT NULL DEFAULT '';
 )sql",
 };
 constexpr std::int64_t kSince = 1;

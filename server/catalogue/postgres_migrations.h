@@ -6,8 +6,8 @@
 
 namespace vitrine::server::postgres {
 
-// Creates or migrates the tables. Only one process at a time does this. Fails as sql::migrate()
-// does.
+// Creates or migrates the tables. Only one process at a time can migrate them. Fails with the same
+// errors as sql::migrate().
 void migrate(sql::DatabaseConnection& connection);
 
 }  // namespace vitrine::server::postgres

@@ -22,15 +22,15 @@ inline FileDescriptor create_private_file(const std::filesystem::path& path) {
   return FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
 }
 
-// Creates an empty file that only its owner can read, unless the file exists. If this fails,
-// opening the file fails as well.
+// Creates an empty file that only its owner can read, unless the file exists. Reports no error,
+// because opening the file then fails as well.
 inline void ensure_private_file(const std::filesystem::path& path) {
   const FileDescriptor created(
       ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
 }
 
-// Creates a folder that only its owner can enter, and its missing parents. Leaves a folder that
-// exists as it is. Returns whether it was created; on an error, sets `error`.
+// Creates a folder that only its owner can enter, and its missing parents. Does not change a folder
+// that exists. Returns whether this call created the folder; on an error, sets `error`.
 inline bool create_private_folder(const std::filesystem::path& folder, std::error_code& error) {
   const std::filesystem::path parent = (folder / "").parent_path().parent_path();
   if (!parent.empty()) std::filesystem::create_directories(parent, error);

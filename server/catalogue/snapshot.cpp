@@ -11,7 +11,7 @@ namespace vitrine::server {
 Expected<void> snapshot_sqlite(const std::filesystem::path& from, const std::filesystem::path& to) {
   try {
     const sqlite::SqliteHandle source(from.string());
-    // If this fails, opening the file below fails as well.
+    // An error is ignored here, because opening the file below then fails as well.
     static_cast<void>(create_private_file(to));
     const sqlite::SqliteHandle copy(to.string());
     sqlite3_backup* backup = sqlite3_backup_init(copy.handle(), "main", source.handle(), "main");

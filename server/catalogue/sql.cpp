@@ -29,8 +29,8 @@ void apply(DatabaseConnection& connection, std::span<const char* const> steps) {
   }
 }
 
-// Returns the number of the oldest version of the tables whose programs can also use tables of
-// version `version`, or nullopt if the database does not record this.
+// Programs made for an older schema version may still be able to use a database of `version`.
+// Returns the oldest such schema version, or nullopt if the database does not record it.
 std::optional<std::int64_t> compatible_since(DatabaseConnection& connection, std::int64_t version) {
   const ScopedStatement row(connection.prepare("SELECT since FROM compatible WHERE version = ?"));
   if (!row->bind(version).step()) return std::nullopt;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interface between the catalogue and an SQL database, so that one implementation of the
-// catalogue works with SQLite and PostgreSQL. Statements use the SQL that both have in common, with
-// ? or ?N for parameters. The classes here throw Failure, which the catalogue converts to an Error.
+// catalogue works with SQLite and PostgreSQL. Statements use only SQL that both databases support,
+// with ? or ?N for parameters. The classes here throw Failure, which the catalogue converts to an
+// Error.
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ inline Unexpected refused(const std::string& what, const Failure& failure) {
 inline constexpr const char* kRestore =
     "run 'vitrine doctor --scrub', or restore a backup with 'vitrine restore'";
 
-// Returns the value of an enumeration whose values are 0 to `last`. Throws a Failure for any other
+// Converts `value` to an enumeration with the values 0 to `last`. Throws a Failure for any other
 // `value`, because the row is then damaged.
 template <class Enumeration>
 Enumeration checked(std::int64_t value, Enumeration last) {
@@ -73,6 +74,14 @@ class Statement {
   virtual void copy_blob(int column, std::span<std::uint8_t> out) const = 0;
 };
 
+// Converts between unsigned numbers and SQL's integers.
+inline std::int64_t number(std::uint64_t value) {
+  return static_cast<std::int64_t>(value);
+}
+inline std::uint64_t count(const Statement& row, int column) {
+  return static_cast<std::uint64_t>(row.integer(column));
+}
+
 // Resets a statement at the end of its scope, so that it can be used again.
 class ScopedStatement {
  public:
@@ -100,8 +109,14 @@ class DatabaseConnection {
   virtual void roll_back() noexcept = 0;
   // Returns the number that Catalogue::revision() describes.
   virtual std::uint64_t revision() = 0;
-  // Returns the operator for LIKE that ignores case.
-  virtual const char* like() const = 0;
+  // Returns a condition for rows of `model_index`: the row's texts contain all words of a text
+  // query. The text query is the condition's only parameter.
+  virtual const char* text_condition() const = 0;
+  // Returns a text query that finds texts in which each of `words` begins a word. `words` must not
+  // contain ASCII punctuation.
+  virtual std::string text_query(std::span<const std::string> words) const = 0;
+  // Returns the clause that, after a text in ORDER BY, makes the database compare texts by bytes.
+  virtual const char* by_bytes() const = 0;
   // Returns the SQL expression for the current time in milliseconds since 1970 by the database's
   // clock.
   virtual const char* now() const = 0;
@@ -150,18 +165,18 @@ auto with_connection(Database& database, Action action) -> decltype(action(*data
   }
 }
 
-// The schema changes of a database. Step i changes the tables from version i to version i + 1.
-// Never edit a step that has been released.
+// The schema changes of a database. Step i changes the tables from version i to version i + 1. Do
+// not edit a step that has been released.
 struct Migrations {
   std::span<const char* const> steps;
-  // Programs made for tables of this version or a later one can use the newest tables, so that old
-  // and new daemons may run side by side. Raise this number with each step that does more than add
+  // Programs made for this schema version or a later one can use the newest tables, so their
+  // daemons may share the database. Raise this number with each step that does more than add
   // columns with defaults.
   std::int64_t since;
 };
 
-// Migrates the tables to the newest version. Does not change tables of a newer version: succeeds if
-// that version has recorded that this version can use them, otherwise fails with kUnsupported.
+// Migrates the tables to the newest version. Leaves tables of a newer version unchanged. In this
+// case, fails with kUnsupported unless the database records that this version can use them.
 void migrate(DatabaseConnection& connection, const Migrations& migrations);
 
 }  // namespace vitrine::server::sql

@@ -5,115 +5,20 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
+
+#include "server/catalogue/sql_harvest.h"
+#include "server/catalogue/sql_model.h"
+#include "server/catalogue/sql_search.h"
 
 namespace vitrine::server {
 namespace {
 
+using sql::count;
 using sql::DatabaseConnection;
+using sql::number;
 using sql::ScopedStatement;
 using sql::Statement;
 using sql::Transaction;
-
-constexpr std::string_view kColumns =
-    "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
-    "faces, vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes, "
-    "public_head_bytes, public_faces, public_vertices, texture_count, texture_side, texture_bytes, "
-    "public_texture_count, public_texture_side, public_texture_bytes";
-
-std::uint64_t count(const Statement& row, int column) {
-  return static_cast<std::uint64_t>(row.integer(column));
-}
-
-std::map<std::string, std::string> read_more(const std::string& text) {
-  std::map<std::string, std::string> more;
-  const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) return more;
-  for (const auto& [name, value] : json.items()) {
-    if (value.is_string()) more[name] = value.get<std::string>();
-  }
-  return more;
-}
-
-// Reads a summary from three columns.
-TextureSummary read_textures(const Statement& row, int first) {
-  return {.count = static_cast<std::uint32_t>(row.integer(first)),
-          .largest_side = static_cast<std::uint32_t>(row.integer(first + 1)),
-          .bytes = count(row, first + 2)};
-}
-
-std::optional<PublicPart> read_public_part(const Statement& row) {
-  if (row.is_null(16)) return std::nullopt;
-  return PublicPart{.max_level = static_cast<std::uint32_t>(row.integer(16)),
-                    .file = row.blob<32>(17),
-                    .file_bytes = count(row, 18),
-                    .head_bytes = count(row, 19),
-                    .faces = count(row, 20),
-                    .vertices = count(row, 21),
-                    .textures = read_textures(row, 25)};
-}
-
-ModelRecord read_model(const Statement& row) {
-  ModelRecord model;
-  model.id = ModelId::from_bytes(row.blob<16>(0));
-  model.state = row.integer(1) == 1 ? ModelState::kPublished : ModelState::kDraft;
-  model.created = row.integer(2);
-  model.title = row.text(3);
-  model.creator = row.text(4);
-  model.rights = row.text(5);
-  model.licence = row.text(6);
-  model.unit = row.text(7);
-  model.file = row.blob<32>(8);
-  model.file_bytes = count(row, 9);
-  model.head_bytes = count(row, 10);
-  model.faces = count(row, 11);
-  model.vertices = count(row, 12);
-  model.more = read_more(row.text(13));
-  if (!row.is_null(14)) model.accuracy = row.real(14);
-  model.version = count(row, 15);
-  model.public_part = read_public_part(row);
-  model.textures = read_textures(row, 22);
-  return model;
-}
-
-std::int64_t number(std::uint64_t value) {
-  return static_cast<std::int64_t>(value);
-}
-
-std::string more_text(const ModelRecord& model) {
-  return nlohmann::json(model.more).dump();
-}
-
-void bind_public_part(Statement& row, const std::optional<PublicPart>& part) {
-  if (!part) {
-    for (int i = 0; i < 6; ++i)
-      row.bind_null();
-    return;
-  }
-  row.bind(number(part->max_level)).bind(part->file).bind(number(part->file_bytes));
-  row.bind(number(part->head_bytes)).bind(number(part->faces)).bind(number(part->vertices));
-}
-
-void bind_textures(Statement& row, const TextureSummary& textures) {
-  row.bind(std::int64_t{textures.count}).bind(std::int64_t{textures.largest_side});
-  row.bind(number(textures.bytes));
-}
-
-void bind_model(Statement& row, const ModelRecord& m) {
-  row.bind(m.id.bytes()).bind(static_cast<std::int64_t>(m.state)).bind(m.created);
-  row.bind(m.title).bind(m.creator).bind(m.rights).bind(m.licence).bind(m.unit).bind(m.file);
-  row.bind(number(m.file_bytes)).bind(number(m.head_bytes));
-  row.bind(number(m.faces)).bind(number(m.vertices)).bind(more_text(m));
-  if (m.accuracy) {
-    row.bind_real(*m.accuracy);
-  } else {
-    row.bind_null();
-  }
-  row.bind(number(m.version));
-  bind_public_part(row, m.public_part);
-  bind_textures(row, m.textures);
-  bind_textures(row, m.public_part ? m.public_part->textures : TextureSummary());
-}
 
 TokenRecord read_token(const Statement& row) {
   return {.id = TokenId::from_bytes(row.blob<16>(0)),
@@ -121,23 +26,6 @@ TokenRecord read_token(const Statement& row) {
           .hash = row.blob<32>(2),
           .label = row.text(3),
           .created = row.integer(4)};
-}
-
-// Returns a LIKE pattern for each of the first eight words of `text`. Escapes %, _ and \ in the
-// words.
-std::vector<std::string> patterns(std::string_view text) {
-  constexpr std::size_t kMaxWords = 8;
-  std::vector<std::string> words;
-  std::string word;
-  for (const char c : text) {
-    if (c == '%' || c == '_' || c == '\\') word += '\\';
-    if (c != ' ' && c != '\t') word += c;
-    if ((c == ' ' || c == '\t') && !word.empty())
-      words.push_back('%' + std::exchange(word, {}) + '%');
-  }
-  if (!word.empty()) words.push_back('%' + word + '%');
-  words.resize(std::min(words.size(), kMaxWords));
-  return words;
 }
 
 Unexpected changed_meanwhile(const ModelId& id) {
@@ -152,14 +40,10 @@ std::int64_t now_in_milliseconds() {
       .count();
 }
 
-std::string select_models(std::string_view which) {
-  return fmt::format("SELECT {} FROM model WHERE {}", kColumns, which);
-}
-
 const std::string kInsertModel = fmt::format(
-    "INSERT INTO model({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
+    "INSERT INTO model({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
     "ON CONFLICT DO NOTHING RETURNING 1",
-    kColumns);
+    kModelColumns);
 const std::string kInsertChunk =
     "INSERT INTO chunk(sha256, model, \"offset\", length) VALUES (?,?,?,?) ON CONFLICT DO NOTHING";
 const std::string kUpdateState =
@@ -171,10 +55,11 @@ const std::string kUpdateModel =
     "public_max_level = ?17, public_file = ?18, public_file_bytes = ?19, "
     "public_head_bytes = ?20, public_faces = ?21, public_vertices = ?22, "
     "texture_count = ?23, texture_side = ?24, texture_bytes = ?25, public_texture_count = ?26, "
-    "public_texture_side = ?27, public_texture_bytes = ?28 "
+    "public_texture_side = ?27, public_texture_bytes = ?28, repairs = ?29, presentation = ?30 "
     "WHERE id = ?1 AND version = ?16 RETURNING 1";
 const std::string kHoldJob =
     "UPDATE job SET model = ?3 WHERE id = ?1 AND fence = ?2 AND state = 1 RETURNING 1";
+const std::string kStampChange = "UPDATE model_index SET state = state WHERE model = ?";
 const std::string kRemoveChunks = "DELETE FROM chunk WHERE model = ?";
 const std::string kRemoveModel =
     "DELETE FROM model WHERE id = ?1 AND version = coalesce(?2, version) RETURNING 1";
@@ -188,6 +73,10 @@ const std::string kFindSame = select_models(
 const std::string kFindChunk =
     "SELECT model, \"offset\", length FROM chunk JOIN model ON model.id = chunk.model "
     "WHERE sha256 = ? AND state = 1 LIMIT 1";
+const std::string kPageCursors =
+    "SELECT id FROM (SELECT id, row_number() OVER (ORDER BY id DESC) AS place, "
+    "count(*) OVER () AS models FROM model WHERE state = 1) AS listed "
+    "WHERE place % ? = 0 AND place < models ORDER BY id DESC";
 const std::string kPublicChunks =
     "SELECT sha256 FROM chunk JOIN model ON model.id = chunk.model WHERE model = ? AND state = 1";
 const std::string kInsertToken =
@@ -221,6 +110,14 @@ void insert_chunks(DatabaseConnection& connection, const ModelId& model,
   }
 }
 
+// Sets the time of the model's last change to now, by the trigger on this column. The last
+// statement of a transaction calls it: a harvester that reads the catalogue before the commit does
+// not see the change, and would miss it if its time were much earlier.
+void stamp_change(DatabaseConnection& connection, const ModelId& model) {
+  const ScopedStatement row(connection.prepare(kStampChange));
+  row->bind(model.bytes()).any();
+}
+
 std::optional<ModelRecord> read_one(Statement& row) {
   return row.step() ? std::optional(read_model(row)) : std::nullopt;
 }
@@ -232,33 +129,7 @@ std::vector<TokenRecord> read_tokens(Statement& rows) {
   return tokens;
 }
 
-ModelPage search_in(DatabaseConnection& connection, const ModelQuery& query) {
-  const auto words = patterns(query.text);
-  std::string which = "state >= ?";
-  if (query.after) which += " AND id < ?";
-  for (std::size_t i = 0; i < words.size(); ++i)
-    which += fmt::format(" AND title||' '||creator {} ? ESCAPE '\\'", connection.like());
-
-  const ScopedStatement rows(
-      connection.prepare(select_models(which + " ORDER BY id DESC LIMIT ?")));
-  rows->bind(std::int64_t{query.includes_drafts ? 0 : 1});
-  if (query.after) rows->bind(query.after->bytes());
-  for (const std::string& word : words)
-    rows->bind(word);
-  const std::uint32_t limit = std::clamp(query.limit, 1u, kMaxPage);
-  rows->bind(std::int64_t{limit} + 1);  // a row beyond the limit means that there is a next page
-
-  ModelPage page;
-  while (rows->step())
-    page.models.push_back(read_model(*rows));
-  if (page.models.size() > limit) {
-    page.models.pop_back();
-    page.next = page.models.back().id;
-  }
-  return page;
-}
-
-std::vector<Sha256> public_chunks(DatabaseConnection& connection, const ModelId& model) {
+std::vector<Sha256> read_public_chunks(DatabaseConnection& connection, const ModelId& model) {
   std::vector<Sha256> chunks;
   const ScopedStatement rows(connection.prepare(kPublicChunks));
   for (rows->bind(model.bytes()); rows->step();)
@@ -282,6 +153,7 @@ class SqlCatalogue final : public Catalogue {
                     fmt::format("model {} exists; use another id", model.id.to_string()));
       }
       insert_chunks(connection, model.id, chunks);
+      stamp_change(connection, model.id);
       transaction.commit();
       return {};
     });
@@ -312,6 +184,7 @@ class SqlCatalogue final : public Catalogue {
         old->bind(model.id.bytes()).any();
         insert_chunks(connection, model.id, *chunks);
       }
+      stamp_change(connection, model.id);
       transaction.commit();
       return {};
     });
@@ -360,8 +233,29 @@ class SqlCatalogue final : public Catalogue {
   Expected<ModelPage> search(const ModelQuery& query) override {
     return sql::with_connection(*database_,
                                 [&](DatabaseConnection& connection) -> Expected<ModelPage> {
-                                  return search_in(connection, query);
+                                  return search_models(connection, query);
                                 });
+  }
+
+  Expected<Facets> facets(const ModelQuery& query) override {
+    return sql::with_connection(*database_,
+                                [&](DatabaseConnection& connection) -> Expected<Facets> {
+                                  return count_facets(connection, query);
+                                });
+  }
+
+  Expected<Harvest> harvest(const HarvestQuery& query) override {
+    return sql::with_connection(*database_,
+                                [&](DatabaseConnection& connection) -> Expected<Harvest> {
+                                  return harvest_models(connection, query);
+                                });
+  }
+
+  Expected<std::vector<std::string>> collections() override {
+    using Names = std::vector<std::string>;
+    return sql::with_connection(*database_, [](DatabaseConnection& connection) -> Expected<Names> {
+      return list_collections(connection);
+    });
   }
 
   Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
@@ -372,6 +266,27 @@ class SqlCatalogue final : public Catalogue {
       return ChunkLocation{ModelId::from_bytes(row->blob<16>(0)),
                            {chunk, count(*row, 1), count(*row, 2)}};
     });
+  }
+
+  Expected<std::vector<ModelId>> page_cursors(std::uint32_t size) override {
+    using Cursors = std::vector<ModelId>;
+    return sql::with_connection(*database_,
+                                [&](DatabaseConnection& connection) -> Expected<Cursors> {
+                                  const ScopedStatement rows(connection.prepare(kPageCursors));
+                                  rows->bind(std::int64_t{std::max(size, 1u)});
+                                  Cursors cursors;
+                                  while (rows->step())
+                                    cursors.push_back(ModelId::from_bytes(rows->blob<16>(0)));
+                                  return cursors;
+                                });
+  }
+
+  Expected<std::vector<Sha256>> public_chunks(const ModelId& id) override {
+    using Chunks = std::vector<Sha256>;
+    return sql::with_connection(*database_,
+                                [&](DatabaseConnection& connection) -> Expected<Chunks> {
+                                  return read_public_chunks(connection, id);
+                                });
   }
 
   Expected<void> add_token(const TokenRecord& token) override {
@@ -427,7 +342,7 @@ class SqlCatalogue final : public Catalogue {
   Expected<void> change(const ModelId& id, bool hides, const Action& action) {
     std::vector<Sha256> chunks;
     const auto run = [&](DatabaseConnection& connection) -> Expected<void> {
-      if (hides && hidden_) chunks = public_chunks(connection, id);
+      if (hides && hidden_) chunks = read_public_chunks(connection, id);
       return action(connection);
     };
     auto done = sql::with_connection(*database_, run);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/catalogue/sql_jobs.h"
+#include "server/catalogue/sql_catalogue.h"
 
 #include <fmt/core.h>
 
@@ -451,7 +451,7 @@ class SqlJobs final : public JobCatalogue {
  private:
   // SQL condition: the job is queued, or it runs without a lease because its daemon has restarted.
   static constexpr const char* kLeft = "(state = 0 OR (state = 1 AND lease = 0))";
-  // SQL condition: the job is queued, or it runs and has no lease or an expired one.
+  // SQL condition: the job is queued, or it runs without a valid lease.
   static std::string is_free(const DatabaseConnection& connection) {
     return fmt::format("(state = 0 OR (state = 1 AND lease < {}))", connection.now());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/catalogue/sql_visits.h"
+#include "server/catalogue/sql_catalogue.h"
 
 namespace vitrine::server {
 namespace {

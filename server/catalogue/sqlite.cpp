@@ -27,8 +27,8 @@ int system_error(sqlite3* handle) {
   }
 }
 
-// Whether the connection's last error means that the file is damaged. SQLITE_ERROR counts, because
-// SQLite reports missing tables and columns by it.
+// Whether the connection's last error means that the file is damaged. SQLITE_ERROR counts as
+// damage, because SQLite returns it if a table or a column is missing.
 bool is_damage(sqlite3* handle) {
   const int code = sqlite3_extended_errcode(handle) & 0xff;
   return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;

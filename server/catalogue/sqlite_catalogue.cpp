@@ -2,9 +2,7 @@
 #include "server/catalogue/sqlite_catalogue.h"
 
 #include "server/catalogue/sql_catalogue.h"
-#include "server/catalogue/sql_jobs.h"
 #include "server/catalogue/sqlite_database.h"
-#include "server/catalogue/sqlite_jobs.h"
 
 namespace vitrine::server {
 

@@ -3,8 +3,11 @@
 
 #include <fmt/core.h>
 
+#include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "server/catalogue/private_file.h"
 #include "server/catalogue/sqlite.h"
@@ -115,9 +118,9 @@ ALTER TABLE model ADD COLUMN public_texture_bytes INTEGER NOT NULL DEFAULT 0;
     R"sql(
 ALTER TABLE job ADD COLUMN owner TEXT NOT NULL DEFAULT '';
 )sql",
-    // The indices contain all columns that matter, so that the integrity check finds a changed
-    // value: it compares each row with its entries in the indices. Queries do not filter by the
-    // first columns of these indices, so the query planner does not choose them.
+    // These indices serve the integrity check: it compares each row with its index entries, and so
+    // finds changed values. The indices contain all columns that matter. No query filters by their
+    // first columns, so the query planner does not choose these indices.
     R"sql(
 CREATE INDEX model_guard ON model(
   created, state, title, creator, rights, licence, unit, file, file_bytes, head_bytes, faces,
@@ -135,8 +138,8 @@ CREATE INDEX token_guard ON token(created, role, hash, label, revoked);
 DROP INDEX chunk_of_model;
 CREATE INDEX chunk_of_model ON chunk(model, offset, length);
 )sql",
-    // This index guards the columns of the table, as the indices above do. It also serves queries
-    // for a range of days.
+    // The index visit_of_day lets the integrity check find changed values, as the indices above do.
+    // It also serves queries for a range of days.
     R"sql(
 CREATE TABLE visit (
   model BLOB NOT NULL REFERENCES model(id) ON DELETE CASCADE, day INTEGER NOT NULL,
@@ -145,6 +148,108 @@ CREATE TABLE visit (
   PRIMARY KEY (model, day)
 ) WITHOUT ROWID;
 CREATE INDEX visit_of_day ON visit(day, visits, seconds, levels, complete);
+)sql",
+    R"sql(
+ALTER TABLE model ADD COLUMN repairs TEXT NOT NULL DEFAULT '';
+DROP INDEX model_guard;
+CREATE INDEX model_guard ON model(
+  created, state, title, creator, rights, licence, unit, file, file_bytes, head_bytes, faces,
+  vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes,
+  public_head_bytes, public_faces, public_vertices, texture_count, texture_side, texture_bytes,
+  public_texture_count, public_texture_side, public_texture_bytes, repairs);
+)sql",
+    // Triggers derive these tables from the rows of `model`. `model_index` has a small row for each
+    // model. `facet_value` has the values of the facets; the column `facets` lists their ids.
+    // `model_words` is a full-text index without a copy of the texts, so the text of a row is
+    // needed to remove it.
+    R"sql(
+CREATE TABLE facet_value (
+  id INTEGER PRIMARY KEY, name TEXT NOT NULL, value TEXT NOT NULL, UNIQUE (name, value)
+);
+CREATE TABLE model_index (
+  number INTEGER PRIMARY KEY, model BLOB NOT NULL UNIQUE, state INTEGER NOT NULL,
+  title TEXT NOT NULL, creator TEXT NOT NULL, facets TEXT NOT NULL
+);
+CREATE INDEX model_by_title ON model_index(title, model);
+CREATE INDEX model_by_creator ON model_index(creator, model);
+CREATE VIRTUAL TABLE model_words USING fts5(
+  words, content = '', tokenize = 'unicode61 remove_diacritics 2', prefix = '1 2 3');
+CREATE VIEW model_text AS
+  SELECT number, model.id AS model, model.title||' '||model.creator||' '||rights||' '||licence||' '||
+    coalesce((SELECT group_concat(value, ' ')
+              FROM json_each(CASE WHEN json_valid(more) THEN more ELSE '{}' END)), '') AS words
+  FROM model JOIN model_index ON model_index.model = model.id;
+CREATE VIEW model_facet AS
+  SELECT model.id AS model, text.key AS name, trim(part.value) AS value
+  FROM model,
+    json_each(json_patch(CASE WHEN json_valid(more) THEN more ELSE '{}' END,
+                         json_object('creator', creator, 'licence', licence))) AS text,
+    json_each('[' || replace(json_quote(text.value), ';', '","') || ']') AS part
+  WHERE text.key IN ('subject', 'creator', 'period', 'material', 'licence', 'collection')
+    AND trim(part.value) != '';
+CREATE VIEW model_entry AS
+  SELECT id AS model, state, lower(title) AS title, lower(creator) AS creator,
+    ' ' || coalesce((SELECT group_concat(facet_value.id, ' ')
+                     FROM model_facet JOIN facet_value USING (name, value)
+                     WHERE model_facet.model = model.id), '') || ' ' AS facets
+  FROM model;
+INSERT INTO facet_value(name, value) SELECT DISTINCT name, value FROM model_facet;
+INSERT INTO model_index(model, state, title, creator, facets)
+  SELECT model, state, title, creator, facets FROM model_entry ORDER BY model;
+INSERT INTO model_words(rowid, words) SELECT number, words FROM model_text;
+CREATE TRIGGER text_added AFTER INSERT ON model BEGIN
+  INSERT INTO facet_value(name, value)
+    SELECT DISTINCT name, value FROM model_facet AS f
+    WHERE model = new.id AND NOT EXISTS
+      (SELECT 1 FROM facet_value AS v WHERE v.name = f.name AND v.value = f.value);
+  INSERT INTO model_index(model, state, title, creator, facets)
+    SELECT model, state, title, creator, facets FROM model_entry WHERE model = new.id;
+  INSERT INTO model_words(rowid, words) SELECT number, words FROM model_text WHERE model = new.id;
+END;
+CREATE TRIGGER text_changes BEFORE UPDATE ON model BEGIN
+  INSERT INTO model_words(model_words, rowid, words)
+    SELECT 'delete', number, words FROM model_text WHERE model = old.id;
+END;
+CREATE TRIGGER text_changed AFTER UPDATE ON model BEGIN
+  INSERT INTO facet_value(name, value)
+    SELECT DISTINCT name, value FROM model_facet AS f
+    WHERE model = new.id AND NOT EXISTS
+      (SELECT 1 FROM facet_value AS v WHERE v.name = f.name AND v.value = f.value);
+  UPDATE model_index SET (state, title, creator, facets) =
+    (SELECT state, title, creator, facets FROM model_entry WHERE model = new.id)
+    WHERE model = new.id;
+  INSERT INTO model_words(rowid, words) SELECT number, words FROM model_text WHERE model = new.id;
+END;
+CREATE TRIGGER text_removed BEFORE DELETE ON model BEGIN
+  INSERT INTO model_words(model_words, rowid, words)
+    SELECT 'delete', number, words FROM model_text WHERE model = old.id;
+  DELETE FROM model_index WHERE model = old.id;
+END;
+)sql",
+    // The time of a model's last change, in seconds since 1970. The triggers above write the row of
+    // `model_index` at each change of its model.
+    R"sql(
+ALTER TABLE model_index ADD COLUMN changed INTEGER NOT NULL DEFAULT 0;
+UPDATE model_index SET changed = (SELECT created / 1000 FROM model WHERE id = model);
+CREATE INDEX model_by_change ON model_index(changed, model);
+CREATE TRIGGER change_added AFTER INSERT ON model_index BEGIN
+  UPDATE model_index SET changed = CAST(strftime('%s', 'now') AS INTEGER)
+    WHERE number = new.number;
+END;
+CREATE TRIGGER change_made AFTER UPDATE OF state ON model_index BEGIN
+  UPDATE model_index SET changed = CAST(strftime('%s', 'now') AS INTEGER)
+    WHERE number = new.number;
+END;
+)sql",
+    // How viewers and exports present a model, as JSON. Empty: as in its file.
+    R"sql(
+ALTER TABLE model ADD COLUMN presentation TEXT NOT NULL DEFAULT '';
+DROP INDEX model_guard;
+CREATE INDEX model_guard ON model(
+  created, state, title, creator, rights, licence, unit, file, file_bytes, head_bytes, faces,
+  vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes,
+  public_head_bytes, public_faces, public_vertices, texture_count, texture_side, texture_bytes,
+  public_texture_count, public_texture_side, public_texture_bytes, repairs, presentation);
 )sql",
 };
 // Programs made for tables before version 8 cannot use the newest tables.
@@ -178,7 +283,16 @@ class SqliteConnection final : public sql::DatabaseConnection {
     row->step();
     return static_cast<std::uint64_t>(row->integer(0));
   }
-  const char* like() const override { return "LIKE"; }
+  const char* text_condition() const override {
+    return "number IN (SELECT rowid FROM model_words WHERE model_words MATCH ?)";
+  }
+  std::string text_query(std::span<const std::string> words) const override {
+    std::string query;
+    for (const std::string& word : words)
+      query += '"' + word + "\"* ";
+    return query;
+  }
+  const char* by_bytes() const override { return ""; }
   const char* now() const override {
     return "CAST((julianday('now') - 2440587.5) * 86400000 AS INTEGER)";
   }
@@ -192,24 +306,47 @@ class SqliteConnection final : public sql::DatabaseConnection {
   std::map<std::string, std::unique_ptr<SqliteStatement>> statements_;
 };
 
+constexpr const char* kMemory = ":memory:";  // the name of a database without a file
+
 class SqliteDatabase final : public sql::Database {
  public:
-  explicit SqliteDatabase(const std::string& file) : connection_(file) {}
+  explicit SqliteDatabase(std::string file) : file_(std::move(file)) { open(); }
 
+  // Opens a new connection if the last use of the connection failed. If memory ran out, the
+  // full-text index may be wrong in the connection's memory, although it is right in the file.
   std::shared_ptr<sql::DatabaseConnection> lease() override {
-    mutex_.lock();
-    return {&connection_, [this](sql::DatabaseConnection*) { mutex_.unlock(); }};
+    std::unique_lock lock(mutex_);
+    if (has_failed_ && file_ != kMemory) connection_.reset();
+    if (!connection_) open();
+    lock.release();
+    return {&*connection_, [this](sql::DatabaseConnection*) {
+              has_failed_ = std::uncaught_exceptions() > 0;
+              mutex_.unlock();
+            }};
   }
 
  private:
-  SqliteConnection connection_;
-  std::mutex mutex_;
+  void open() {
+    connection_.emplace(file_);
+    try {
+      connection_->run(
+          "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
+    } catch (...) {
+      connection_.reset();
+      throw;
+    }
+  }
+
+  const std::string file_;
+  std::mutex mutex_;  // guards the members below
+  std::optional<SqliteConnection> connection_;
+  bool has_failed_ = false;  // whether an exception ended the last use of the connection
 };
 
 }  // namespace
 
 std::shared_ptr<sql::Database> newest_tables() {
-  auto database = std::make_shared<SqliteDatabase>(":memory:");
+  auto database = std::make_shared<SqliteDatabase>(kMemory);
   sql::migrate(*database->lease(), {.steps = kSteps, .since = kSince});
   return database;
 }
@@ -219,8 +356,6 @@ Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::pa
   try {
     auto database = std::make_shared<SqliteDatabase>(file.string());
     const auto connection = database->lease();
-    connection->run(
-        "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
     sql::migrate(*connection, {.steps = kSteps, .since = kSince});
     return database;
   } catch (const sql::Failure& failure) {

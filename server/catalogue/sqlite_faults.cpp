@@ -32,6 +32,20 @@ void add_structure_faults(const SqliteHandle& database, std::vector<std::string>
   }
 }
 
+// Compares the pages of the full-text index with each other, because PRAGMA integrity_check does
+// not check these pages. Catalogues of older versions have no such index.
+void add_index_faults(const SqliteHandle& database, std::vector<std::string>& faults) {
+  if (!SqliteStatement(database, "SELECT 1 FROM sqlite_schema WHERE name = 'model_words'").any())
+    return;
+  SqliteStatement check(database, "INSERT INTO model_words(model_words) VALUES('integrity-check')");
+  try {
+    check.step();
+  } catch (const sql::Failure&) {
+    if (sqlite3_errcode(database.handle()) % 256 != SQLITE_CORRUPT) throw;
+    faults.emplace_back("the full-text index is damaged");
+  }
+}
+
 void add_reference_faults(const SqliteHandle& database, std::vector<std::string>& faults) {
   SqliteStatement row(database, "PRAGMA foreign_key_check");
   while (faults.size() < kMostFaults && row.step()) {
@@ -86,6 +100,7 @@ Expected<std::vector<std::string>> find_faults(const std::filesystem::path& file
     const SqliteHandle database(file.string());
     try {
       add_structure_faults(database, faults);
+      if (faults.empty()) add_index_faults(database, faults);
       if (faults.empty()) add_reference_faults(database, faults);
       if (faults.empty()) add_schema_faults(database, faults);
     } catch (const sql::Failure& failure) {

@@ -10,11 +10,11 @@
 
 namespace vitrine::server::sqlite {
 
-// Reads every page of the database `file` on a connection of its own, and checks its structure, its
-// indices, its references and its schema. The check also finds changed values, because indices
-// contain copies of all values except a job's progress, stage and lease. Returns at most 20 faults,
-// each in one line; empty if there are none. Others may use the database meanwhile. Fails with kIo
-// if the database cannot be opened.
+// Reads every page of the database `file`, and checks its structure, indices, references and
+// schema. The check also finds changed values, because indices contain copies of all values except
+// a job's progress, stage and lease. Returns at most 20 faults, each in one line; empty if there
+// are none. Opens its own connection, so others may use the database at the same time. Fails with
+// kIo if the database cannot be opened.
 Expected<std::vector<std::string>> find_faults(const std::filesystem::path& file);
 
 }  // namespace vitrine::server::sqlite

@@ -63,7 +63,7 @@ class VisitCatalogue {
  public:
   virtual ~VisitCatalogue() = default;
 
-  // Adds the counts to those stored, in one transaction. Ignores models that do not exist.
+  // Adds the counts to the stored counts in one transaction. Ignores models that do not exist.
   virtual Expected<void> add(const VisitsOfDays& more) = 0;
 
   // Returns the sums of each model over the range, the most visited model first. Returns at most

@@ -9,8 +9,8 @@
 
 namespace vitrine::server {
 
-// Checks the letters itself, because OpenSSL ignores surrounding blanks and accepts padding between
-// letters.
+// Checks the characters itself, because OpenSSL ignores surrounding blanks and accepts padding in
+// the middle of the text.
 std::optional<std::string> decode_base64(std::string_view text) {
   const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '/'; };

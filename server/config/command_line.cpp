@@ -68,8 +68,8 @@ class Draft {
   }
 
  private:
-  // Returns where a setting was made, for an error message. The name of a flag or variable already
-  // contains the key. A line of a file does not, so the key is added.
+  // Returns the place of a setting for an error message. The name of a flag or variable already
+  // contains the key. The place in a file does not, so the key is added.
   static std::string place_of(const Option& option, const SettingSource& setting) {
     if (setting.source == flag_name(option) || setting.source == environment_name(option))
       return setting.source;
@@ -120,8 +120,8 @@ Expected<void> read_config(const std::string& path, const ReadFile& read_file, D
 constexpr std::array<std::string_view, 4> kOfTests{"VITRINE_MODELS", "VITRINE_FUZZ_SECONDS",
                                                    "VITRINE_CHROMIUM", "VITRINE_NO_SKIPS"};
 
-// Whether a variable whose name begins with VITRINE_ is not a setting. The tests use some variables
-// of this kind. Kubernetes sets others if a service is named "vitrine".
+// Whether a variable that begins with VITRINE_ is not a setting. Tests use some of these variables.
+// Kubernetes sets other such variables if a service is named "vitrine".
 bool is_foreign(std::string_view name, std::string_view value) {
   return std::ranges::find(kOfTests, name) != kOfTests.end() ||
          name.starts_with("VITRINE_SERVICE_") ||
@@ -236,7 +236,9 @@ std::string reference() {
       "(such as VITRINE_TLS_KEY) and as a flag (--key VALUE). Flags override the environment,\n"
       "which overrides the file. SIGHUP reads all three again and applies changes of reloadable\n"
       "keys; after an error it changes nothing and logs the error. SIGUSR1 reopens the access log\n"
-      "after its rotation.\n\n";
+      "after its rotation.\n\n"
+      "N, BYTES and SECONDS are whole numbers without a unit: 1073741824, not 1G. Do not give\n"
+      "secrets as flags, because the list of processes shows flags.\n\n";
   constexpr std::size_t kIndent = 6;
   for (const Option& option : options()) {
     const std::string doc =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the daemon's settings from its configuration file, environment and arguments. Flags
-// override the environment, which overrides the file, which overrides the defaults.
+// override the environment, the environment overrides the file, and the file overrides the
+// defaults.
 #pragma once
 
 #include <functional>
@@ -34,7 +35,7 @@ using ReadFile = std::function<Expected<std::string>(const std::string& path)>;
 
 // Parses the settings. `arguments` does not include the program's name; an entry of `environment`
 // is "NAME=value". Every error is one line that names the place of the fault. If a key is unknown,
-// the error also names the most similar known key, if there is one.
+// the error also suggests a similar known key, if any.
 Expected<CommandLine> parse_command_line(std::span<const std::string_view> arguments,
                                          std::span<const std::string_view> environment,
                                          const ReadFile& read_file);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides by the Host field whether to answer a request. This prevents DNS rebinding: a page of
-// another site can make its own host name resolve to the daemon's address. The requests of that
-// page then name a host that is not the daemon's, so they are refused.
+// Decides by the Host field whether to answer a request. This prevents DNS rebinding, where a page
+// of another site makes its own host name resolve to the daemon's address. Requests from that page
+// then have the page's host name in their Host field, so they are refused.
 #pragma once
 
 #include <string_view>
@@ -10,14 +10,14 @@
 
 namespace vitrine::server {
 
-// Whether `host`, the value of a Host field with or without a port, names this daemon: it is the
-// host of public-url or scan-address, an entry of the setting hosts, localhost, or a numeric
-// address, which DNS rebinding cannot use. Also true for an empty value, because browsers never
-// send one.
+// Whether `host`, the value of a Host field with or without a port, names this daemon: the host of
+// public-url or scan-address, an entry of the setting hosts, localhost, or a numeric address, which
+// DNS rebinding cannot use. Also true for an empty value, because browsers never send an empty Host
+// field.
 bool is_own_host(const Settings& settings, std::string_view host);
 
-// Whether the daemon answers requests for `host` on 'listen': its own hosts, or every host if
-// neither public-url nor hosts is set.
+// Whether the daemon answers requests for `host` on 'listen'. If neither public-url nor hosts is
+// set, it answers requests for every host, otherwise only for its own hosts.
 bool is_public_host(const Settings& settings, std::string_view host);
 
 // Whether `origin`, the value of an Origin field, is an entry of the setting allowed-origins.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the current settings, which are replaced as a whole. Replaced settings are never freed, so
-// that references to them stay valid. Reloads are rare, so all settings fit in memory.
+// Holds the current settings. replace() replaces all of them at once, but never frees the old
+// settings, so that references to them stay valid. Reloads are rare, so old settings need little
+// memory.
 #pragma once
 
 #include <atomic>

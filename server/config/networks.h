@@ -36,10 +36,10 @@ class Networks {
   bool has_unix_ = false;
 };
 
-// Returns the network whose clients share one budget in all limits. For an IPv4 address, even in
-// IPv6-mapped form, this is the address itself. For an IPv6 address, it is the prefix of 64 bits,
-// because addresses with the same prefix belong to one subscriber ([RFC6177]). Returns text that is
-// not an address unchanged.
+// Returns the network whose clients share one budget in all limits. For IPv4, also in IPv6-mapped
+// form, this is the address itself. For IPv6, it is the prefix of 64 bits, because the addresses in
+// such a prefix belong to one subscriber ([RFC6177]). Returns text that is not an address
+// unchanged.
 std::string network_of(std::string_view address);
 
 // Returns a shortened address for logs, so that a log identifies no person: the first 24 bits of an

@@ -2,7 +2,6 @@
 #include "server/config/options.h"
 
 #include <fmt/format.h>
-#include <sys/un.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <optional>
 
 #include "codec/core/parse_number.h"
+#include "server/config/endpoint.h"
 #include "server/config/host_names.h"
 #include "server/config/webhook_key.h"
 
@@ -25,36 +25,6 @@ Expected<std::uint64_t> parse_within(std::string_view text, std::uint64_t min, s
         fmt::format("'{}' is not a whole number from {} to {}; correct it", text, min, max));
   }
   return *value;
-}
-
-Expected<Endpoint> parse_unix_socket(std::string_view path) {
-  if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is not the path of a socket, 1 to {} bytes; give one", path,
-                            sizeof(sockaddr_un::sun_path) - 1));
-  }
-  return Endpoint{.path = std::string(path)};
-}
-
-Expected<Endpoint> parse_endpoint(std::string_view text) {
-  constexpr std::string_view kUnix = "unix:";
-  if (text.starts_with(kUnix)) return parse_unix_socket(text.substr(kUnix.size()));
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos || colon == 0) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is not HOST:PORT; give, for example, 127.0.0.1:8080", text));
-  }
-  std::string_view host = text.substr(0, colon);
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  if (host == "localhost") host = "127.0.0.1";
-  if (!is_address(host.substr(0, host.find('%')))) {  // ignores an IPv6 zone, as in fe80::1%eth0
-    return fail(
-        ErrorCode::kBadInput,
-        fmt::format("'{}' is not a numeric address; give, for example, 127.0.0.1 or [::1]", host));
-  }
-  const auto port = parse_within(text.substr(colon + 1), 0, 65535);
-  if (!port) return tl::unexpected(port.error());
-  return Endpoint{.host = std::string(host), .port = static_cast<std::uint16_t>(*port)};
 }
 
 template <auto Member>
@@ -108,6 +78,21 @@ Expected<void> hosts(Settings& settings, std::string_view text) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("'{}' is not a host name; give, for example, museum.example", host));
   }
+  return {};
+}
+
+Expected<void> contact(Settings& settings, std::string_view text) {
+  const std::size_t at = std::min(text.find('@'), text.size());
+  const std::string_view host = text.substr(std::min(at + 1, text.size()));
+  const bool is_mail = at > 0 && host.find('.') != host.npos && host.find("..") == host.npos &&
+                       host.front() != '.' && host.back() != '.' &&
+                       std::ranges::all_of(text, [](char c) { return c > ' ' && c < 0x7F; });
+  if (!text.empty() && !is_mail) {
+    return fail(
+        ErrorCode::kBadInput,
+        fmt::format("'{}' is not an e-mail address; give, for example, 3d@museum.example", text));
+  }
+  settings.contact = text;
   return {};
 }
 
@@ -195,7 +180,7 @@ Expected<void> connection_share(Settings& settings, std::string_view text) {
   return {};
 }
 
-// Reads a URL. The error message does not repeat the URL, which may contain a password.
+// Reads a URL. Error messages do not contain the URL, because it may contain a password.
 template <auto Member>
 Expected<void> url_of(Settings& settings, std::string_view text,
                       std::initializer_list<std::string_view> schemes) {
@@ -223,7 +208,7 @@ Expected<void> text_of(Settings& settings, std::string_view text) {
   return {};
 }
 
-// Reads the URL of a server, without slashes at its end: an origin, and a path if a proxy adds one.
+// Reads the URL of a server, without slashes at its end. It may have a path, for use by a proxy.
 Expected<std::string> server_url(std::string_view text) {
   while (text.ends_with('/'))
     text.remove_suffix(1);
@@ -313,9 +298,9 @@ constexpr std::array kOptions{
     Option{.key = "store",
            .type = kUrl,
            .default_value = "",
-           .doc = "S3-compatible bucket: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=S. S is "
-                  "path (bucket in the URL's path; default with an endpoint) or virtual (in its "
-                  "host name). Empty: objects are in the data folder.",
+           .doc = "S3-compatible bucket: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=S. S "
+                  "says where URLs name the bucket: path (default with an endpoint) or virtual "
+                  "(in the host name; else the default). Empty: objects are in the data folder.",
            .apply = store_url},
     Option{.key = "store-access-key",
            .type = kText,
@@ -394,9 +379,9 @@ constexpr std::array kOptions{
         .type = kShare,
         .default_value = "10%",
         .doc =
-            "Largest number of open connections from one address or one IPv6 /64 network, or its "
-            "share of 'max-connections'. Trusted proxies are exempt; their WebSockets count for "
-            "the client behind them. 0: no limit.",
+            "Largest number of open connections from one address or IPv6 /64 network: a number, or "
+            "a percentage of 'max-connections'. 0: no limit. Connections of trusted proxies are "
+            "not limited, but each stream through a proxy counts for its client's address.",
         .apply = connection_share,
         .is_reloadable = true},
     Option{.key = "request-rate",
@@ -433,16 +418,16 @@ constexpr std::array kOptions{
     Option{.key = "model-cache",
            .type = kBytes,
            .default_value = "268435456",
-           .doc = "Memory for headers (manifests) of the models that clients requested last.",
+           .doc = "Memory for headers (manifests) of the most recently requested models.",
            .apply = number<&S::model_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "answer-memory",
            .type = kBytes,
            .default_value = "536870912",
-           .doc = "Memory for responses that clients have not received yet. A response fails with "
-                  "503 if it does not fit beside the others, and with 507 if it is larger than "
-                  "this memory. An address that is receiving a response gets another only while "
-                  "at most half of the memory is used. Responses from files need none.",
+           .doc = "Memory for responses that clients have not received yet; responses from files "
+                  "need none. A response that does not fit beside the others fails with 503. While "
+                  "over half is used, so does any response to an address that is still receiving "
+                  "another. A response larger than this memory fails with 507.",
            .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "hosts",
@@ -498,7 +483,7 @@ constexpr std::array kOptions{
            .type = kBytes,
            .default_value = "1000000000",
            .doc = "Free space to keep on the disks of 'data' and 'uploads'; uploads that need it "
-                  "are refused. With less, /readyz and vitrine_disk_nearly_full say so.",
+                  "are refused. /readyz and vitrine_disk_nearly_full report if less is free.",
            .apply = number<&S::disk_reserve_bytes, 0, std::numeric_limits<std::int64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "webhook-hosts",
@@ -539,6 +524,13 @@ constexpr std::array kOptions{
            .doc = "URL prefix that visitors see, if a proxy changes it: https://museum.example. "
                   "Empty: taken from the Host field of each request.",
            .apply = address<&S::public_url>,
+           .is_reloadable = true},
+    Option{.key = "contact",
+           .type = kText,
+           .default_value = "",
+           .doc = "E-mail address of the operators, which OAI-PMH states to harvesters. Empty: "
+                  "webmaster@ and the host of 'public-url'.",
+           .apply = contact,
            .is_reloadable = true},
 };
 

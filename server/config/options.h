@@ -38,8 +38,8 @@ struct Option {
   std::string_view default_value;
   std::string_view doc;
   bool is_secret = false;  // whether the value must never be printed
-  // Parses `text`, checks its range and sets the member of `settings`. The error says what is
-  // expected.
+  // Parses `text`, checks its range and sets the member of `settings`. The error says which values
+  // are valid.
   Expected<void> (*apply)(Settings& settings, std::string_view text);
   bool is_reloadable = false;  // whether SIGHUP applies a new value; other options need a restart
 };

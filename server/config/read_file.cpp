@@ -19,7 +19,7 @@ Expected<std::string> read_config_file(const std::string& path) {
   int error = errno;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    error = EISDIR;  // open() succeeds for a folder, but a folder has no text
+    error = EISDIR;  // open() succeeds for a folder, but read() would fail
   if (!file || error == EISDIR) {
     return fail(ErrorCode::kIo,
                 fmt::format("cannot read {}: {}; check --config", path, std::strerror(error)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon's settings as typed values. Their defaults are only in the table in options.cpp.
+// The daemon's settings as typed values. Only the table in options.cpp defines their defaults.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct Settings {
   Roles roles;
   std::filesystem::path data;
   std::filesystem::path uploads;  // empty: a folder in the data folder
-  // URLs of object store and catalogue; if one is empty, the data folder is used
+  // URLs of the object store and the catalogue. If a URL is empty, the data folder is used.
   std::string store, catalogue;
   std::string store_access_key, store_secret_key;
   std::filesystem::path port_file;        // empty: no such file is written
@@ -61,8 +61,7 @@ struct Settings {
   bool counts_visits = false;             // whether the daemon counts visits to models
   std::uint32_t threads = 0;              // 0: one per core
   std::uint32_t max_connections = 0;
-  // Longest time to receive a whole request header, and longest time that a write may make no
-  // progress.
+  // Time limit for receiving a whole request header, and for a write that makes no progress.
   std::chrono::seconds idle_timeout{};
   std::chrono::seconds stop_timeout{};  // longest time from SIGTERM to the end of the process
   std::uint64_t export_cache_bytes = 0;
@@ -93,9 +92,12 @@ struct Settings {
   std::uint32_t request_rate = 0;
   // Bytes per second that a client must receive on average; 0: no minimum.
   std::uint32_t min_rate = 0;
-  // Prefix of all absolute URLs, without a slash at its end. If it is empty, the prefix is taken
-  // from each request.
+  // Start of all absolute URLs, without a slash at its end. If it is empty, the Host field of each
+  // request determines the start.
   std::string public_url;
+  // E-mail address of the people who run this installation. Empty: OAI-PMH states webmaster@ and
+  // the host.
+  std::string contact;
 };
 
 }  // namespace vitrine::server

@@ -8,7 +8,7 @@
 namespace vitrine::server {
 namespace {
 
-// Returns the Levenshtein distance. Computes the table one row at a time.
+// Returns the Levenshtein distance. Keeps only one row of the table in memory.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -7,9 +7,9 @@
 
 namespace vitrine::server {
 
-// Returns the candidate with the smallest edit distance to `word`, or the first of several such
-// candidates. One edit inserts, deletes or replaces one character. Returns an empty text if all
-// distances are more than half of the word's length.
+// Returns the candidate with the smallest edit distance to `word`. If several candidates have this
+// distance, returns the first. One edit inserts, deletes or replaces one character. Returns an
+// empty text if all distances are more than half of the word's length.
 std::string_view suggest(std::string_view word, std::span<const std::string_view> candidates);
 
 }  // namespace vitrine::server

@@ -8,9 +8,9 @@
 
 namespace vitrine::server {
 
-// Breaks `text` at spaces into lines of at most 100 characters. All lines but the first begin with
-// `indent` spaces; the first is assumed to start at column `indent`. A word that is too long for a
-// line stays whole.
+// Breaks `text` at spaces into lines of at most 100 characters. Indents all lines except the first
+// by `indent` spaces. The caller puts the first line at column `indent`. A word that is too long
+// for a line stays whole.
 std::string wrapped(std::string_view text, std::size_t indent);
 
 }  // namespace vitrine::server

@@ -47,6 +47,13 @@ tl::expected<ExportChoices, ChoiceFault> read_choices(const ChoiceTexts& texts, 
       return tl::unexpected(
           ChoiceFault{"compression", "none, because only GLB files can be compressed"});
   }
+  if (texts.lod) {
+    if (*texts.lod != "none" && *texts.lod != "msft")
+      return tl::unexpected(ChoiceFault{"lod", "none or msft"});
+    choices.has_levels = *texts.lod == "msft";
+    if (choices.has_levels && format != MeshFormat::kGlb)
+      return tl::unexpected(ChoiceFault{"lod", "none, because only GLB files hold several levels"});
+  }
   return choices;
 }
 

@@ -30,13 +30,13 @@ constexpr std::string_view extension_of_format(MeshFormat format) {
   return row_of(format).extension;
 }
 // Each constant lists all zips: ".ply.zip, .obj.zip, …", "ply.zip, obj.zip or wrl.zip" and
-// "ply.zip,obj.zip,wrl.zip".
+// "ply.zip|obj.zip|wrl.zip".
 inline constexpr FixedText kZipSuffixes =
     concatenate(".", join(kZipFormats, extension_of_format, ".zip, .", ".zip, ."), ".zip");
 inline constexpr FixedText kZipExtensions =
     concatenate(join(kZipFormats, extension_of_format, ".zip, ", ".zip or "), ".zip");
 inline constexpr FixedText kZipChoice =
-    concatenate(join(kZipFormats, extension_of_format, ".zip,", ".zip,"), ".zip");
+    concatenate(join(kZipFormats, extension_of_format, ".zip|", ".zip|"), ".zip");
 
 // Returns the kind of an export from the end of its file name, such as "bust.glb" or
 // "bust.obj.zip". Ignores the case of letters. Returns nullopt for other names.

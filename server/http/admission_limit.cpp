@@ -12,7 +12,11 @@ tl::expected<AdmissionLimit::Pass, AdmissionLimit::Refusal> AdmissionLimit::admi
     const std::scoped_lock lock(mutex_);
     if (admitted_ >= capacity_) return tl::unexpected(Refusal::kFull);
     std::size_t& own = of_address_[address];
-    if (own >= per_address_) return tl::unexpected(Refusal::kAddressFull);
+    // The last quarter of the capacity is for addresses that have no task yet, so that a few
+    // addresses cannot fill all of it.
+    const bool is_shared = per_address_ < capacity_;
+    const bool is_scarce = is_shared && own > 0 && admitted_ >= capacity_ - capacity_ / 4;
+    if (own >= per_address_ || is_scarce) return tl::unexpected(Refusal::kAddressFull);
     ++own;
     ++admitted_;
   }

@@ -31,8 +31,8 @@ Response unknown_token(const Credentials& credentials, const HttpDependencies& w
   return response;
 }
 
-// Returns the token of a field "Authorization: Bearer TOKEN". Returns an empty text if the request
-// has no such field, several, or one of another form.
+// Returns the token of a field "Authorization: Bearer TOKEN". Returns an empty text if this field
+// is missing, occurs twice, or has another form.
 std::string_view bearer_token(const RequestHeader& header) {
   constexpr std::string_view kScheme = "Bearer ";
   const auto value = header[field::authorization];

@@ -16,12 +16,12 @@ struct Credentials {
   std::string_view request_id;
 };
 
-// Whether authorise() must be called for the request. If the route needs no role, the call is
-// needed only if the request has a token and the handler does not run inline.
+// Whether authorise() must be called for the request: if the route needs a role, or if the request
+// has a token and the handler does not run on the connection's own thread.
 bool needs_authorisation(const Route& route, const RequestHeader& header);
 
 struct Authorisation {
-  // The caller as the owner of the token; nullopt if the request has no valid token.
+  // The owner of the request's token; nullopt if the request has no valid token.
   std::optional<Caller> caller;
   // The response if the request is refused: 401 if there is no valid token, 403 if the token's role
   // does not suffice, 429 if this address has sent too many unknown tokens, 503 if the catalogue

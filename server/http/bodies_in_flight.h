@@ -21,11 +21,11 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
 
   void set_capacity(std::uint64_t max_bytes) { max_bytes_ = max_bytes; }
 
-  // Admits a body for `network` (network_of()), or returns null if there is no room. If other
-  // bodies are being sent to the same network, the network may fill only half of the memory. The
-  // caller must keep the result until `body` is sent. A text counts with its size. Shared memory
-  // counts once, even if several connections send it. Stored bytes, static memory and bodies
-  // smaller than kSmall bytes do not count.
+  // Admits a body for `network` (network_of()). The caller must keep the result until `body` is
+  // sent. Returns null if the body does not fit in the memory limit. While a network receives other
+  // bodies, it may use only half of this limit. A text counts with its size. Shared memory counts
+  // once, even if several connections send it. Stored bytes, static memory and bodies smaller than
+  // kSmall bytes do not count.
   std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
   // Whether the body would be admitted if no other responses were being sent.
@@ -48,7 +48,7 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   std::mutex mutex_;  // guards the members below
   std::uint64_t bytes_ = 0;
   std::unordered_map<const void*, Shared> shared_;
-  // per network: number of bodies that count
+  // Number of counted bodies of each network.
   std::unordered_map<std::string, std::size_t> counted_;
 };
 

@@ -23,11 +23,11 @@ struct Connection : std::enable_shared_from_this<Connection> {
   // The network whose limit this connection counts towards; set by ConnectionSet.
   std::string counted_as;
   // Whether the connection is between two requests and can be closed without losing data.
-  bool idle = false;
+  bool is_idle = false;
   // Whether a body is being read. In this case, the deadline cancels only the read, so that the
   // server can still send a response.
   bool reads_body = false;
-  bool draining = false;  // whether the connection must close after the current response
+  bool is_draining = false;  // whether the connection must close after the current response
   // Called to end a WebSocket or an event stream; empty for other responses.
   std::function<void()> on_drain;
 

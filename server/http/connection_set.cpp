@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/connection_set.h"
 
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -25,10 +26,10 @@ void close_if_expired(Connection& connection) {
 }
 
 void end(Connection& connection) {
-  connection.draining = true;
+  connection.is_draining = true;
   if (connection.on_drain) {
     connection.on_drain();
-  } else if (connection.idle) {
+  } else if (connection.is_idle) {
     close(connection);
   }
 }
@@ -43,7 +44,7 @@ void post(const std::shared_ptr<Connection>& connection, void (*action)(Connecti
 ConnectionSet::Admission ConnectionSet::add(const std::shared_ptr<Connection>& connection) {
   const bool is_proxy = proxies_.contain(connection->remote);
   const std::scoped_lock lock(mutex_);
-  if (draining_ || connections_.size() >= capacity_) return Admission::kFull;
+  if (is_draining_ || connections_.size() >= capacity_) return Admission::kFull;
   connection->counted_as = network_of(connection->remote);
   std::size_t& count = of_network_[connection->counted_as];
   if (count >= per_address_ && !is_proxy) return Admission::kAddressFull;
@@ -96,10 +97,16 @@ void ConnectionSet::end_forbidden() {
     for (const auto& [connection, may_continue] : lasting_)
       checks.emplace_back(connections_.at(connection), may_continue);
   }
+  std::exception_ptr fault;  // thrown after all checks, so that it does not prevent other checks
   for (const auto& [weak, may_continue] : checks) {
-    if ((*may_continue)()) continue;
-    if (const auto connection = weak.lock()) post(connection, end);
+    try {
+      if ((*may_continue)()) continue;
+      if (const auto connection = weak.lock()) post(connection, end);
+    } catch (...) {
+      fault = std::current_exception();
+    }
   }
+  if (fault) std::rethrow_exception(fault);
 }
 
 void ConnectionSet::set_capacity(std::size_t capacity, std::size_t per_address) {
@@ -127,7 +134,7 @@ void ConnectionSet::sweep() {
 void ConnectionSet::drain(std::function<void()> on_empty) {
   {
     const std::scoped_lock lock(mutex_);
-    draining_ = true;
+    is_draining_ = true;
     if (!connections_.empty()) on_empty_ = std::exchange(on_empty, nullptr);
   }
   if (on_empty) on_empty();

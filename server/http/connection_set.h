@@ -35,8 +35,8 @@ class ConnectionSet {
   using MayContinue = std::function<bool()>;
   // Registers a long-lived connection, for which end_forbidden() calls `may_continue`.
   void lasts_while(const Connection& connection, MayContinue may_continue);
-  // Asks the registered connections that may no longer continue to end, in the same way as drain().
-  // Blocks.
+  // Calls each registered `may_continue`. If it returns false, asks the connection to end, as
+  // drain() does. Blocks.
   void end_forbidden();
 
   // Changes the limits for new connections. Open connections stay open.
@@ -56,7 +56,7 @@ class ConnectionSet {
   const Networks proxies_;
   std::mutex mutex_;  // guards the members below
   std::size_t capacity_, per_address_;
-  bool draining_ = false;
+  bool is_draining_ = false;
   std::function<void()> on_empty_;
   std::unordered_map<const Connection*, std::weak_ptr<Connection>> connections_;
   std::unordered_map<std::string, std::size_t> of_network_;

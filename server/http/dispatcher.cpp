@@ -71,8 +71,8 @@ Response options(std::string allow, bool is_public_read) {
   return response;
 }
 
-// Returns the origin of the request if pages of this origin may send any request, else an empty
-// string.
+// Returns the origin of the request (the web page that sent it) if pages of this origin may send
+// any request. Otherwise returns an empty string.
 std::string trusted_origin_of(const RequestHeader& header, const HttpOptions& options) {
   const auto sent = header[beast::http::field::origin];
   const bool is_trusted =
@@ -247,13 +247,19 @@ asio::awaitable<bool> Dispatcher::authorise_caller(const RequestHeader& header,
 
 asio::awaitable<void> Dispatcher::handle(const Request& request, Exchange& exchange) {
   const Route& route = *exchange.route;
+  const auto call = [&] {
+    const bool is_inline = route.executor == Executor::kInline;
+    return in_accepted_coding(request.header, route.handler(request),
+                              is_inline ? kMostCompressedInline : kMostCompressed);
+  };
   const auto run = [&] {
-    exchange.response = apply_conditions(request.header, guarded(route, request), exchange.id);
+    exchange.response = apply_conditions(request.header, guarded(request.id, call), exchange.id);
   };
   if (route.executor == Executor::kInline) {
     run();
     co_return;
   }
+  if (route.opens && co_await open_first(request, exchange, run)) co_return;
   const auto pass = server_.workers().admit(route.executor, network_of(exchange.client.address));
   if (!pass) {
     exchange.response = not_admitted(pass.error(), exchange.id);
@@ -268,18 +274,37 @@ asio::awaitable<void> Dispatcher::handle(const Request& request, Exchange& excha
   co_await on_worker(route.executor, run);
 }
 
-// Calls the handler and catches its exceptions, such as std::bad_alloc, so that only this request
-// fails.
-Response Dispatcher::guarded(const Route& route, const Request& request) {
-  const bool is_inline = route.executor == Executor::kInline;
+// Opens the file that the handler needs, on threads that only open files. If handlers opened large
+// files themselves, they would occupy the handlers' threads and delay requests for other files. If
+// the handler needs no such file and runs on a worker, calls `run` and returns true.
+asio::awaitable<bool> Dispatcher::open_first(const Request& request, const Exchange& exchange,
+                                             const std::function<void()>& run) {
+  const Route& route = *exchange.route;
+  std::optional<Opening> opening;
+  bool has_run = false;
+  co_await on_worker(Executor::kWorker, [&] {
+    try {
+      opening = route.opens(request);
+    } catch (const std::exception&) {  // the handler opens the file itself, and reports the fault
+    }
+    has_run = !opening && route.executor == Executor::kWorker;
+    if (has_run) run();
+  });
+  if (opening) co_await server_.workers().open(owner_of(exchange), std::move(*opening));
+  co_return has_run;
+}
+
+// Calls `make` and catches its exceptions, such as std::bad_alloc, so that only this request fails.
+// Returns the result, or the response of a failure.
+template <class Make>
+auto Dispatcher::guarded(std::string_view id, const Make& make) -> decltype(make()) {
   try {
-    return in_accepted_coding(request.header, route.handler(request),
-                              is_inline ? kMostCompressedInline : kMostCompressed);
+    return make();
   } catch (const std::exception& fault) {
     server_.dependencies().events.event(
-        Severity::kError, std::string("request ") + std::string(request.id) + ": " + fault.what());
+        Severity::kError, std::string("request ") + std::string(id) + ": " + fault.what());
     const bool no_memory = dynamic_cast<const std::bad_alloc*>(&fault) != nullptr;
-    return no_memory ? away(request.id) : problem(500, "", request.id);
+    return no_memory ? away(id) : problem(500, "", id);
   }
 }
 
@@ -289,13 +314,16 @@ asio::awaitable<bool> Dispatcher::pour(RequestParser& parser, Exchange& exchange
   const std::shared_ptr<BodySink> sink = std::move(exchange.response.sink);
   std::optional<Response> refusal;
   RequestReader::Consumer take = [&](std::span<const std::uint8_t> piece) -> asio::awaitable<bool> {
-    co_await on_worker(Executor::kDisk, [&] { refusal = sink->take(piece); });
+    co_await on_worker(Executor::kDisk,
+                       [&] { refusal = guarded(exchange.id, [&] { return sink->take(piece); }); });
     co_return !refusal;
   };
   const ReadResult read = co_await reader_.read_pieces(parser, exchange, std::move(take));
   if (refusal) exchange.response = std::move(*refusal);
   if (refusal || read == ReadResult::kRejected) co_return true;
-  co_await on_worker(Executor::kDisk, [&] { exchange.response = sink->finish(); });
+  co_await on_worker(Executor::kDisk, [&] {
+    exchange.response = guarded(exchange.id, [&] { return sink->finish(); });
+  });
   co_return read == ReadResult::kRead;
 }
 

@@ -3,6 +3,8 @@
 // and runs the handler on its executor.
 #pragma once
 
+#include <functional>
+
 #include "server/http/request_reader.h"
 
 namespace vitrine::server {
@@ -13,9 +15,9 @@ class Dispatcher {
   Dispatcher(Connection& connection, HttpServer& server, RequestReader& reader)
       : connection_(connection), server_(server), reader_(reader) {}
 
-  // Counts the request towards its client's request rate if the response is an error or comes from
-  // no route, unless the request has already been counted. Such responses are logged, so their rate
-  // must be limited. If the client exceeds the rate, the response becomes 429.
+  // Counts the request towards the client's request rate if the response is an error or comes from
+  // no route. Such responses are logged, so their rate must be limited. A request that has already
+  // been counted is not counted again. If the client exceeds the rate, the response becomes 429.
   void count_error(Exchange& exchange);
 
   // Sets exchange.response. Returns false if there is no response to send, because the peer has
@@ -29,7 +31,10 @@ class Dispatcher {
   bool has_no_call_left(std::string_view client, Exchange& exchange);
   asio::awaitable<bool> authorise_caller(const RequestHeader& header, Exchange& exchange);
   asio::awaitable<void> handle(const Request& request, Exchange& exchange);
-  Response guarded(const Route& route, const Request& request);
+  asio::awaitable<bool> open_first(const Request& request, const Exchange& exchange,
+                                   const std::function<void()>& run);
+  template <class Make>
+  auto guarded(std::string_view id, const Make& make) -> decltype(make());
   asio::awaitable<bool> pour(RequestParser& parser, Exchange& exchange);
   template <class Task>
   asio::awaitable<void> on_worker(Executor executor, const Task& task);

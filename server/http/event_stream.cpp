@@ -12,7 +12,7 @@ namespace vitrine::server {
 namespace {
 
 // Whether the peer has disconnected. The caller must poll this function, because no read is pending
-// that would report it. Does not remove bytes that the peer has sent from the socket.
+// that would report it. Bytes that the peer has sent stay in the socket.
 bool has_left(Connection& connection) {
   char byte;
   const ssize_t count =
@@ -32,7 +32,7 @@ asio::awaitable<std::uint64_t> send_events(Connection& connection, EventSource& 
   connection.on_drain = [tick] { tick->cancel(); };
   auto spoke = Connection::Clock::now();
   std::uint64_t total = 0;
-  while (!connection.draining && !has_left(connection)) {
+  while (!connection.is_draining && !has_left(connection)) {
     std::string text;
     if (const auto event = source.next()) text = event_text(*event);
     if (text.empty() && Connection::Clock::now() - spoke >= kHeartbeat) text = ":\n\n";

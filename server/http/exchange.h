@@ -32,14 +32,14 @@ struct Exchange {
   bool is_body_read = false;
   bool is_public_read = true;
   std::string trusted_origin;  // the page's origin if it may read every response; else empty
-  bool keep_alive = true;
+  bool keeps_alive = true;
   Response response;
 
   // Sets an error response. The connection closes after it, because the start of the next request
   // is unknown.
   void reject(unsigned status, std::string_view detail) {
     response = problem(status, detail, id);
-    keep_alive = false;
+    keeps_alive = false;
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits how many tasks run at the same time. Waiting tasks get their turns owner by owner, so that
-// an owner with many tasks delays each other owner by one task only.
+// Limits how many tasks run at the same time. Each task belongs to an owner, and the owners take
+// turns. An owner with many tasks therefore delays every other owner by only one task.
 #pragma once
 
 #include <memory>
@@ -18,13 +18,13 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
  public:
   explicit FairTurns(std::size_t at_a_time) : free_(at_a_time) {}
 
-  // A turn, which lasts until its last copy is destroyed.
+  // A turn: the permission to run one task. It lasts until its last copy is destroyed.
   using Turn = std::shared_ptr<const void>;
   // Waits for a turn of `owner`. Tasks with equal targets run one after the other. Must be called
   // on a strand.
   asio::awaitable<Turn> wait(std::string owner, std::string target);
 
-  void stop();  // makes no further turns begin
+  void stop();  // no turn begins after this call
 
  private:
   struct Waiter {

@@ -127,13 +127,13 @@ void HttpServer::lasts_while(const Connection& connection, const std::optional<C
   });
 }
 
-// Ends long-lived connections that may no longer continue. The check runs on a worker, because
+// Ends long-lived connections that may no longer continue. The check does not run here, because
 // reading the catalogue may block. Only one check runs at a time.
 void HttpServer::end_forbidden() {
   if (!permission_check_.expired()) return;
   const auto check = std::make_shared<int>();
   permission_check_ = check;
-  asio::post(workers().executor(Executor::kWorker), [this, check] {
+  asio::post(workers().checks(), [this, check] {
     try {
       connections_.end_forbidden();
     } catch (const std::exception& fault) {

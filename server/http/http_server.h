@@ -83,8 +83,8 @@ class HttpServer {
   Workers& workers() { return dependencies_.workers; }
   asio::io_context& io() { return io_; }
   RateLimit& rate_limit() { return rate_limit_; }
-  // Whether to log one more refused request of this address. Also counts the requests that are not
-  // logged.
+  // Returns whether one more refused request of this address may be logged. If not, counts the
+  // request as not logged.
   bool may_log_refusal(std::string_view address);
   BodiesInFlight& bodies() { return *bodies_; }
   ConnectionSet& connections() { return connections_; }

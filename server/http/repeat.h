@@ -26,14 +26,14 @@ inline asio::awaitable<void> repeat(asio::steady_timer& timer, asio::steady_time
   }
 }
 
-// Calls `attempt` repeatedly as long as `goes_on` returns true. If an attempt returns false or
+// Calls `attempt` repeatedly as long as `may_continue` returns true. If an attempt returns false or
 // throws, waits for `pause` before the next attempt. If an attempt throws, also calls `failed`.
 inline asio::awaitable<void> keep_trying(asio::steady_timer& timer,
                                          asio::steady_timer::duration pause,
-                                         std::function<bool()> goes_on,
+                                         std::function<bool()> may_continue,
                                          std::function<asio::awaitable<bool>()> attempt,
                                          std::function<void(std::string_view fault)> failed) {
-  for (bool is_well = true; goes_on();) {
+  for (bool is_well = true; may_continue();) {
     try {
       timer.expires_after(pause);
       if (!is_well) co_await timer.async_wait(kNoThrow);

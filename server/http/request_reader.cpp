@@ -23,8 +23,8 @@ unsigned status_of(const boost::system::error_code& error) {
   return 400;
 }
 
-// Moves the request's header back from the parser of pieces, because the response depends on the
-// header.
+// Moves the request's header back from `from`, which has read the body in pieces. Code that makes
+// the response needs the header.
 void give_header_back(PieceParser& from, RequestParser& to) {
   to.get().base() = std::move(from.get().base());
 }
@@ -35,15 +35,15 @@ asio::awaitable<ReadResult> RequestReader::read_header(RequestParser& parser, Ex
   parser.header_limit(kMaxHeader);
   parser.body_limit(boost::none);  // read_text() sets the limit
   connection_.expires_after(server_.pace().timeout);
-  connection_.idle = buffer_.size() == 0;
-  if (connection_.idle && buffer_.capacity() > kIdleBuffer) buffer_.shrink_to_fit();
+  connection_.is_idle = buffer_.size() == 0;
+  if (connection_.is_idle && buffer_.capacity() > kIdleBuffer) buffer_.shrink_to_fit();
   const auto [error, bytes] =
       co_await beast::http::async_read_header(connection_.socket, buffer_, parser, kNoThrow);
-  connection_.idle = false;
+  connection_.is_idle = false;
   exchange.start = Connection::Clock::now();
   exchange.client = {connection_.remote, connection_.socket.is_encrypted()};
   if (error) co_return rejected(error, exchange);
-  exchange.keep_alive = parser.keep_alive();
+  exchange.keeps_alive = parser.keep_alive();
   exchange.client = client_of(std::move(exchange.client), parser.get(), server_.options().proxies);
   if (const auto fault = framing_fault(parser.get()); !fault.empty()) {
     exchange.reject(400, fault);
@@ -103,7 +103,7 @@ asio::awaitable<ReadResult> RequestReader::read_pieces(RequestParser& parser, Ex
     connection_.expires_after(server_.pace().timeout);
     const auto [error, bytes] =
         co_await beast::http::async_read(connection_.socket, buffer_, pieces, kNoThrow);
-    has_failed = (error && error != beast::http::error::need_buffer) || connection_.draining;
+    has_failed = (error && error != beast::http::error::need_buffer) || connection_.is_draining;
     const std::size_t size = piece.size() - body.size;
     if (size > 0) is_wanted = co_await consume(std::span(piece).first(size));
   }

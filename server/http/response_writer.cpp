@@ -30,8 +30,9 @@ bool is_audited(const Exchange& exchange) {
   return is_change(exchange) && exchange.route->role != Role::kNone;
 }
 
-// Whether the log may omit the request because its address has too many such requests: one beyond a
-// rate, or a refused change. A client can cause any number of these.
+// Whether the log may omit this request if its address sends many such requests. True if the
+// request is beyond a rate limit, or is a refused change. A client can cause any number of such
+// requests.
 bool is_rationed(const Exchange& exchange, unsigned status) {
   const bool is_refused = status >= 400 && status < kUnanswered;
   return exchange.is_beyond_rate || (is_refused && is_change(exchange));
@@ -40,7 +41,7 @@ bool is_rationed(const Exchange& exchange, unsigned status) {
 }  // namespace
 
 asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchange& exchange) {
-  if (connection_.draining) exchange.keep_alive = false;
+  if (connection_.is_draining) exchange.keeps_alive = false;
   const bool has_body = request.method() != beast::http::verb::head;
   const auto room =
       has_body ? server_.bodies().admit(exchange.response.body, network_of(exchange.client.address))
@@ -50,10 +51,10 @@ asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchan
   Response& response = exchange.response;
   if (response.type == kProblemType && wants_page(request))
     response = problem_page(std::move(response), request);
-  if (response.events) exchange.keep_alive = false;  // the connection closes after the last event
+  if (response.events) exchange.keeps_alive = false;  // the connection closes after the last event
   std::string head = response_head(
       response, {.request_id = exchange.id,
-                 .keep_alive = exchange.keep_alive,
+                 .keeps_alive = exchange.keeps_alive,
                  .is_public_read = server_.options().is_read_by_pages && exchange.is_public_read &&
                                    response.caching != Caching::kPrivate,
                  .trusted_origin = exchange.trusted_origin,
@@ -65,10 +66,13 @@ asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchan
   std::uint64_t sent =
       co_await send_response(connection_, std::move(head), std::move(body), server_.pace());
   const bool lasts = response.events && has_body;
-  if (lasts) server_.lasts_while(connection_, exchange.caller, [] { return true; });
-  if (lasts) sent = co_await send_events(connection_, *response.events, server_.pace().timeout);
+  if (lasts) {
+    server_.lasts_while(connection_, exchange.caller,
+                        [events = response.events] { return events->may_continue(); });
+    sent = co_await send_events(connection_, *response.events, server_.pace().timeout);
+  }
   record(exchange, request, status, sent);
-  is_at_end_ = sent >= size && (!exchange.keep_alive || connection_.draining);
+  is_at_end_ = sent >= size && (!exchange.keeps_alive || connection_.is_draining);
   co_return sent >= size;
 }
 
@@ -101,8 +105,8 @@ std::string ResponseWriter::logged_address(const Client& client) const {
   return server_.options().shortens_addresses ? shortened(client.address) : client.address;
 }
 
-// Writes the request to the audit log, which no setting disables. If there are too many refused
-// requests, some of them are left out.
+// Writes the request to the audit log, which no setting disables. Omits a refused request if its
+// address sends too many of them.
 void ResponseWriter::audit(const Exchange& exchange, const RequestHeader& request,
                            std::string_view route, unsigned status) const {
   const std::string token = exchange.caller ? exchange.caller->token.to_string() : "-";

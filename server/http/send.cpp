@@ -102,7 +102,7 @@ asio::awaitable<std::uint64_t> send_memory(Connection& connection, Bytes bytes, 
 }
 
 iovec part_of(Bytes bytes) {
-  // the constness is cast away for Asio, which only reads the bytes
+  // Casts the constness away, because iovec has no const pointer. sendmsg() only reads the bytes.
   return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};
 }
 

@@ -17,9 +17,9 @@ class Session {
       : connection_(std::move(connection)), server_(server) {}
 
   asio::awaitable<void> run() {
-    bool goes_on = true;
-    while (goes_on && !connection_->draining)
-      goes_on = co_await serve_one();
+    bool continues = true;
+    while (continues && !connection_->is_draining)
+      continues = co_await serve_one();
     if (writer_.is_at_end()) co_await linger();
     boost::system::error_code ignored;
     connection_->socket.close(ignored);
@@ -42,23 +42,29 @@ class Session {
     }
     // If part of the body is unread, the start of the next request is unknown, so the connection
     // must close.
-    if (!parser.is_done() && !exchange.is_body_read) exchange.keep_alive = false;
+    if (!parser.is_done() && !exchange.is_body_read) exchange.keeps_alive = false;
     if (exchange.response.upgrade && may_upgrade(parser, exchange)) {
       co_await upgrade(parser.release(), exchange);
       co_return false;
     }
+    if (exchange.response.events) count_as_client(exchange);
     const bool is_sent = co_await writer_.write(parser.get(), exchange);
-    co_return is_sent&& exchange.keep_alive;
+    co_return is_sent&& exchange.keeps_alive;
   }
 
-  // Whether the connection may be upgraded. If not, sets an error response. An upgraded connection
-  // serves one client for a long time, so it counts towards the limit of that client, even if a
-  // proxy has opened it.
+  // Whether the connection may be upgraded. If not, sets an error response.
   bool may_upgrade(const RequestParser& parser, Exchange& exchange) {
     if (!parser.is_done()) {
       exchange.reject(400, "an upgrade has no body");
       return false;
     }
+    return count_as_client(exchange);
+  }
+
+  // Counts the connection towards the limit of the client, even if a proxy has opened it. Call this
+  // for a stream, because it serves one client for a long time. If the client has reached its
+  // limit, sets an error response and returns false.
+  bool count_as_client(Exchange& exchange) {
     if (server_.connections().count_as(*connection_, exchange.client.address)) return true;
     exchange.response = problem(429, "this address has too many streams", exchange.id);
     exchange.response.fields = {{"Retry-After", "5"}};

@@ -12,9 +12,8 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kPurgeDeadline{10};  // time limit of each request
-// After this time, all daemons have noticed a change of the catalogue. Purges wait for it, because
-// a cache that forgets a chunk earlier could fetch the chunk again from a daemon that still serves
-// it.
+// A purge waits this long, until all daemons have noticed the change of the catalogue. If a cache
+// forgot a chunk earlier, it could fetch the chunk again from a daemon that still serves it.
 constexpr std::chrono::milliseconds kAllHaveNoticed{250};
 
 // Whether the status means that the cache no longer has the chunk. Caches respond with 404 or 412
@@ -33,16 +32,24 @@ bool is_hidden(const Sha256& chunk, Catalogue& catalogue) {
 }  // namespace
 
 void CachePurge::forget(std::vector<Sha256> chunks) {
+  post(std::move(chunks), false);
+}
+
+void CachePurge::forget_hidden(std::vector<Sha256> chunks) {
+  post(std::move(chunks), true);
+}
+
+void CachePurge::post(std::vector<Sha256> chunks, bool only_hidden) {
   const auto noticed = std::chrono::steady_clock::now() + kAllHaveNoticed;
-  executor_.post([this, noticed, chunks = std::move(chunks)] {
+  executor_.post([this, noticed, only_hidden, chunks = std::move(chunks)] {
     if (is_stopping_) return;
     std::this_thread::sleep_until(noticed);
-    std::vector<Sha256> hidden;
+    std::vector<Sha256> purged;
     for (const Sha256& chunk : chunks) {
-      if (!is_stopping_ && is_hidden(chunk, catalogue_)) hidden.push_back(chunk);
+      if (!is_stopping_ && (!only_hidden || is_hidden(chunk, catalogue_))) purged.push_back(chunk);
     }
     for (const std::string& cache : caches_)
-      purge(cache, hidden);
+      purge(cache, purged);
   });
 }
 
@@ -64,8 +71,8 @@ void CachePurge::purge(const std::string& cache, const std::vector<Sha256>& chun
         answer ? fmt::format("it responds with {}", answer->status) : answer.error().message;
     return events_.event(
         Severity::kWarning,
-        fmt::format("cache {} was not purged: {}; it keeps withdrawn chunks for up "
-                    "to 3 minutes",
+        fmt::format("cache {} was not purged: {}; it keeps withdrawn chunks for up to 3 "
+                    "minutes, and damaged ones until their file is repaired",
                     cache, fault));
   }
   if (!chunks.empty())

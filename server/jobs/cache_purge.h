@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks the shared caches in front of the daemon to forget chunks that are no longer public. Sends
-// requests with the method PURGE. This method is not standardised, but Varnish, Squid and the nginx
-// configuration shipped with Vitrine support it.
+// Asks the shared caches in front of the daemon to forget chunks that are no longer public, and
+// chunks whose cached copies may be damaged. Sends requests with the method PURGE. This method is
+// not standardised, but Varnish, Squid and the nginx configuration shipped with Vitrine support it.
 #pragma once
 
 #include <atomic>
@@ -23,14 +23,17 @@ class CachePurge {
   ~CachePurge() { stop(); }
 
   // Sends PURGE {cache}/api/v1/chunks/{sha256} to each cache, on another thread, for each of the
-  // chunks that no published model has. If a cache refuses a request, logs a warning and sends the
-  // remaining requests to the other caches only.
+  // chunks. If a cache refuses a request, logs a warning and sends the remaining requests to the
+  // other caches only.
   void forget(std::vector<Sha256> chunks);
+  // Like forget(), but skips chunks that belong to a published model.
+  void forget_hidden(std::vector<Sha256> chunks);
 
   // Drops the chunks that are waiting. Call this before the catalogue is destroyed.
   void stop();
 
  private:
+  void post(std::vector<Sha256> chunks, bool only_hidden);
   void purge(const std::string& cache, const std::vector<Sha256>& chunks);
 
   const std::vector<std::string> caches_;

@@ -8,18 +8,15 @@
 #include "server/jobs/place_of.h"
 
 namespace vitrine::server {
-namespace {
 
-std::uint64_t free_bytes(const std::filesystem::path& folder) {
+std::uint64_t free_space(const std::filesystem::path& folder) {
   struct statvfs disk {};
   if (::statvfs(folder.c_str(), &disk) != 0) return UINT64_MAX;
   return std::uint64_t{disk.f_bavail} * disk.f_frsize;
 }
 
-}  // namespace
-
 std::uint64_t free_space(const Settings& settings) {
-  return std::min(free_bytes(settings.data), free_bytes(uploads_of(settings)));
+  return std::min(free_space(settings.data), free_space(uploads_of(settings)));
 }
 
 }  // namespace vitrine::server

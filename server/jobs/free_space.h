@@ -4,12 +4,16 @@
 
 #include <cstdint>
 
+#include <filesystem>
+
 #include "server/config/settings.h"
 
 namespace vitrine::server {
 
+// Returns the number of free bytes on the disk of the folder, or UINT64_MAX if it is unknown.
+std::uint64_t free_space(const std::filesystem::path& folder);
 // Returns the number of free bytes on the disk of the data folder or on the disk of the uploads,
-// whichever is less. A disk whose free space is unknown counts as having unlimited free space.
+// whichever is less.
 std::uint64_t free_space(const Settings& settings);
 
 }  // namespace vitrine::server

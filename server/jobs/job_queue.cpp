@@ -130,8 +130,8 @@ void JobQueue::post(const SharedRun& run) {
   executor_of(name).post([this] { work(next_without_scanner()); });
 }
 
-// Returns the next job that needs no scanner. There always is one, because post() posts one call of
-// this function for each waiting job.
+// Returns the next job that needs no scanner. Such a job always exists, because post() posts one
+// call of this function for each waiting job.
 JobQueue::SharedRun JobQueue::next_without_scanner() {
   const std::scoped_lock lock(mutex_);
   return *without_scanner_.take([](const SharedRun&) { return true; });

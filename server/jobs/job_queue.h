@@ -139,9 +139,9 @@ class JobQueue {
   // claimed the webhook meanwhile. Check this right before the call.
   bool may_notify(const JobId& id);
 
-  // Continues the unfinished jobs of an earlier run of this daemon. Paused jobs stay paused. A job
-  // ends if each of the last three daemons that ran it died: as done if its model was stored,
-  // otherwise as failed. After this call, beat() runs twice per second until stop().
+  // Continues the unfinished jobs of an earlier run of this daemon. Paused jobs stay paused. If
+  // each of the last three daemons that ran a job died, ends the job: as done if its model was
+  // stored, otherwise as failed. After this call, beat() runs twice per second until stop().
   Expected<void> start();
 
   // Renews the leases of the jobs that run in this daemon, receives cancellations, and looks for
@@ -237,7 +237,7 @@ class JobQueue {
   mutable std::mutex mutex_;                       // guards the members below
   std::map<JobId, SharedRun> runs_;                // unfinished jobs
   std::map<JobId, std::weak_ptr<JobRun>> others_;  // jobs of other daemons that watch() returned
-  // jobs that wait for the executor that they share
+  // waiting jobs that need no scanner
   FairQueue<SharedRun> without_scanner_;
   std::vector<SharedRun> again_;  // jobs to claim when the catalogue is reachable again
   // Until this time, expired leases of other daemons still count as valid, because these daemons

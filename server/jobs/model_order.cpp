@@ -2,6 +2,7 @@
 #include "server/jobs/model_order.h"
 
 #include "codec/mesh/unit.h"
+#include "server/store/text.h"
 
 namespace vitrine::server {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view kMembers[] = {"upload", "metadata",  "publish", "replace", "webhook",
-                                         "bits",   "placement", "unit",    "up"};
+                                         "bits",   "placement", "unit",    "up",      "repairs"};
 constexpr std::string_view kAxes[] = {"y", "z"};
 
 template <class Id>
@@ -53,6 +54,7 @@ tl::expected<ModelOrder, FieldFaults> parse_model_order(const Json& body) {
   int axis = 0;
   fields.choice("up", kAxes, axis);
   order.z_is_up = axis == 1;
+  fields.lines("repairs", order.repairs);
   return order_or_faults(std::move(order), std::move(faults));
 }
 
@@ -66,6 +68,7 @@ std::string to_json_text(const ModelOrder& order) {
   if (order.replace) json["replace"] = order.replace->to_string();
   if (!order.webhook.empty()) json["webhook"] = order.webhook;
   if (!order.unit.empty()) json["unit"] = order.unit;
+  if (!order.repairs.empty()) json["repairs"] = lines_of(order.repairs);
   return json.dump();
 }
 

@@ -21,6 +21,10 @@ struct ModelOrder {
   Placement placement = Placement::kMidpoint;
   std::string unit;  // one of kLengthUnits; empty: the unit in the file
   bool z_is_up = false;
+
+  // Repairs and losses that the client's build of an uploaded .pmesh file reported, one line for
+  // each kind. Unused for a mesh, because the server itself builds meshes.
+  std::string repairs;
 };
 
 // Parses a request. Returns either the order or all faults of the request. An unknown field is also

@@ -2,12 +2,26 @@
 #include "server/jobs/order_fields.h"
 
 #include "codec/format/manifest.h"
+#include "server/metadata/fields.h"
 #include "server/store/text.h"
 
 namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
+
+// Returns the strings of an array, joined by line feeds. Returns nullopt if one of them is not a
+// line of plain text, or if the result is too long.
+std::optional<std::string> joined(const Json& lines) {
+  if (!lines.is_array()) return std::nullopt;
+  std::string text;
+  for (const Json& line : lines) {
+    const auto* given = line.get_ptr<const std::string*>();
+    if (given == nullptr || !is_plain_text(*given)) return std::nullopt;
+    text += (text.empty() ? "" : "\n") + *given;
+  }
+  return text.size() <= kMaxParagraphBytes ? std::optional(std::move(text)) : std::nullopt;
+}
 
 }  // namespace
 
@@ -37,6 +51,15 @@ void Fields::paragraphs(const char* name, std::string& value) {
   if (given == nullptr || !is_paragraphs(text))
     return fault(name, fmt::format("text of at most {} bytes", kMaxParagraphBytes));
   value = std::move(text);
+}
+
+void Fields::lines(const char* name, std::string& value) {
+  const auto found = object_.find(name);
+  if (found == object_.end()) return;
+  auto text = joined(*found);
+  if (!text)
+    return fault(name, fmt::format("lines of text of at most {} bytes in all", kMaxParagraphBytes));
+  value = std::move(*text);
 }
 
 void Fields::whole(const char* name, int low, int high, int& value) {
@@ -73,7 +96,7 @@ void read_bits(Fields& fields, const Json& body, int& bits) {
 
 std::vector<std::string_view> metadata_names() {
   std::vector<std::string_view> names = {"title", "creator", "rights", "licence"};
-  names.insert(names.end(), std::begin(kDublinCore), std::end(kDublinCore));
+  names.insert(names.end(), std::begin(kMoreTexts), std::end(kMoreTexts));
   return names;
 }
 
@@ -82,14 +105,17 @@ void read_texts(Fields& fields, ModelMetadata& metadata) {
   fields.text("creator", metadata.creator);
   fields.paragraphs("rights", metadata.rights);
   fields.text("licence", metadata.licence);
-  for (const std::string_view element : kDublinCore) {
+  for (const std::string_view element : kMoreTexts) {
     const std::string name(element);
     std::string text = metadata.more[name];
-    if (element == kDescription)
+    if (has_paragraphs(element))
       fields.paragraphs(name.c_str(), text);
     else
       fields.text(name.c_str(), text);
-    metadata.more[name] = text;
+    if (const auto expected = expected_text(name, text))
+      fields.fault(name.c_str(), *expected);
+    else
+      metadata.more[name] = text;
   }
   std::erase_if(metadata.more, [](const auto& element) { return element.second.empty(); });
 }

@@ -35,6 +35,8 @@ class Fields {
   void text(const char* name, std::string& value);     // null makes the text empty (RFC 7396)
   // Reads a text that may have several paragraphs. Removes carriage returns.
   void paragraphs(const char* name, std::string& value);
+  // Reads an array of lines. Joins them by line feeds to a text of several paragraphs.
+  void lines(const char* name, std::string& value);
   void whole(const char* name, int low, int high, int& value);
   void flag(const char* name, bool& value);
 

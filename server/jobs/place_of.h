@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derives the locations of an installation from the settings.
+// Derives the locations of an installation, and its limits on disk space, from the settings.
 #pragma once
 
 #include "server/config/settings.h"
 #include "server/store/installation.h"
+#include "server/store/quota.h"
 
 namespace vitrine::server {
 
@@ -17,6 +18,10 @@ inline InstallationPlace place_of(const Settings& settings) {
 
 inline std::filesystem::path uploads_of(const Settings& settings) {
   return settings.uploads.empty() ? settings.data / "uploads" : settings.uploads;
+}
+
+inline DiskLimits disk_limits_of(const Settings& settings) {
+  return {.quota = settings.quota_bytes, .reserve = settings.disk_reserve_bytes};
 }
 
 }  // namespace vitrine::server

@@ -100,22 +100,23 @@ Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
   if (!file) {
     return fail(ErrorCode::kState, "the upload is gone or not whole; upload the file again");
   }
-  auto pmesh = build(run, order, *file);
-  if (!pmesh) return tl::unexpected(pmesh.error());
+  const auto built = build(run, order, *file);
+  if (!built) return tl::unexpected(built.error());
   run.report("publishing", kChildDone);
   const PublishAs as{.state = order.is_public ? ModelState::kPublished : ModelState::kDraft,
                      .id = order.replace.value_or(model_id_of(run.job())),
                      .quota = &needs_.quota,
                      .upload = order.upload,
-                     .by = claim_of(run.job())};
+                     .by = claim_of(run.job()),
+                     .repairs = built->repairs};
   return retry_while_unreachable(run, [&] {
-    return (order.replace ? replace : publish)(needs_.store, needs_.catalogue, *pmesh,
+    return (order.replace ? replace : publish)(needs_.store, needs_.catalogue, built->file,
                                                order.metadata, as);
   });
 }
 
-Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
-                                   const FileDescriptor& file) {
+Expected<ChildResult> PublishJobs::build(JobRun& run, const ModelOrder& order,
+                                         const FileDescriptor& file) {
   std::array<std::uint8_t, kHeaderPrefix> prefix{};
   const ssize_t n = ::pread(file.get(), prefix.data(), prefix.size(), 0);
   const bool is_built = n > 0 && is_pmesh(std::span(prefix).first(static_cast<std::size_t>(n)));
@@ -130,12 +131,18 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
                        .unit = order.unit,
                        .name = upload ? upload_name(upload->metadata) : std::string(),
                        .folder = needs_.data,
+                       .disk_reserve = needs_.disk_reserve(),
                        .program = needs_.program};
   auto built = child.build(
       file, how, [&](std::string_view, double done) { run.report(stage, kChildDone * done); });
   if (!built) return tl::unexpected(built.error());
-  run.repaired(std::move(built->repairs));
-  return is_built ? read_all(file) : std::move(built->file);
+  if (is_built) {
+    auto pmesh = read_all(file);
+    if (!pmesh) return tl::unexpected(pmesh.error());
+    *built = {.file = std::move(*pmesh), .repairs = order.repairs};
+  }
+  run.repaired(built->repairs);
+  return built;
 }
 
 }  // namespace vitrine::server

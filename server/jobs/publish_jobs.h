@@ -17,8 +17,9 @@ struct PublishDependencies {
   Catalogue& catalogue;
   Uploads& uploads;
   Quota& quota;
-  std::filesystem::path data;                        // data folder of the installation
-  std::filesystem::path program = "/proc/self/exe";  // see BuildOrder::program
+  std::filesystem::path data;                                // data folder of the installation
+  std::filesystem::path program = "/proc/self/exe";          // see BuildOrder::program
+  std::function<std::uint64_t()> disk_reserve = no_reserve;  // returns BuildOrder::disk_reserve
 };
 
 // Returns the file name in an upload's metadata, or an empty string if there is none. Metadata are
@@ -30,7 +31,7 @@ class PublishJobs {
  public:
   explicit PublishJobs(const PublishDependencies& needs) : needs_(needs) {}
 
-  // Creates a job for an order about an upload of `owner`. The caller adds the job to the queue.
+  // Creates a job that carries out `order` for `owner`. The caller adds the job to the queue.
   static JobRecord job_for(const ModelOrder& order, const TokenId& owner);
 
   // Runs a job. If the job succeeds, removes the upload. Otherwise keeps it for another attempt.
@@ -41,9 +42,8 @@ class PublishJobs {
 
  private:
   Expected<Publication> make(JobRun& run, const ModelOrder& order);
-  // Returns the .pmesh file, and records in `run` what was repaired.
-  Expected<std::vector<std::uint8_t>> build(JobRun& run, const ModelOrder& order,
-                                            const FileDescriptor& file);
+  // Returns the .pmesh file and its repairs. Also records the repairs in `run`.
+  Expected<ChildResult> build(JobRun& run, const ModelOrder& order, const FileDescriptor& file);
 
   const PublishDependencies needs_;
 };

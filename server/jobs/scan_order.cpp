@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/scan_order.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +10,20 @@
 #include <string_view>
 
 #include "acquisition/session/scan_request.h"
+#include "server/jobs/clock.h"
 #include "server/jobs/order_fields.h"
 
 namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
+
+std::string title_of(const ScanOrder& order, std::int64_t created) {
+  const bool is_blank = order.metadata.title.find_first_not_of(' ') == std::string::npos;
+  if (!is_blank) return order.metadata.title;
+  return fmt::format("Scan of {:%Y-%m-%d %H:%M}",
+                     fmt::gmtime(static_cast<std::time_t>(created / 1000)));
+}
 
 constexpr double kLeastExposure = 1;  // shortest exposure, in microseconds
 
@@ -54,7 +63,7 @@ void read_scan(Fields& fields, const Json& body, ScanOrder& order) {
   if (!body.contains("scanner")) fields.fault("scanner", "the name of one of /api/v1/scanners");
   fields.whole("steps", acquisition::kLeastSteps, acquisition::kMostSteps, order.request.steps);
   fields.real("exposure", kLeastExposure, acquisition::kMostExposure, order.request.exposure_us);
-  fields.flag("keep_frames", order.request.keep_frames);
+  fields.flag("keep_frames", order.request.keeps_frames);
 }
 
 // Names of the allowed fields. kOfScan applies to a new scan only, kOfModel to a new scan and to a
@@ -124,7 +133,7 @@ std::string to_json_text(const ScanOrder& order) {
   const auto& [stripe, sampling, surface] = order.request.processing;
   Json json = {{"scanner", order.scanner},
                {"steps", order.request.steps},
-               {"keep_frames", order.request.keep_frames},
+               {"keep_frames", order.request.keeps_frames},
                {"stripe", acquisition::kStripeNames[static_cast<std::size_t>(stripe.method)]},
                {"sampling", acquisition::kSamplingNames[static_cast<std::size_t>(sampling.method)]},
                {"length", sampling.window},
@@ -138,6 +147,33 @@ std::string to_json_text(const ScanOrder& order) {
   if (order.request.exposure_us) json["exposure"] = *order.request.exposure_us;
   if (order.calibration > 0) json["calibration"] = order.calibration;
   return json.dump();
+}
+
+Expected<ScanOrder> stored_scan_order(const std::string& parameters) {
+  const auto json = Json::parse(parameters, nullptr, /*allow_exceptions=*/false);
+  auto order = parse_kept_order(json.is_object() ? json : Json::object());
+  if (order) return *order;
+  return fail(ErrorCode::kState, fmt::format("the scan's parameters are damaged at {}; scan again",
+                                             order.error().front().field));
+}
+
+CalibrationOrder stored_calibration_order(const std::string& parameters) {
+  const auto json = Json::parse(parameters, nullptr, /*allow_exceptions=*/false);
+  return parse_calibration_order(json.is_object() ? json : Json::object())
+      .value_or(CalibrationOrder{});
+}
+
+ScanEntry new_scan(ScanOrder order) {
+  ScanEntry scan;
+  scan.id = ScanId::generate();
+  scan.created = now_in_milliseconds();
+  order.metadata.title = title_of(order, scan.created);
+  scan.scanner = order.scanner;
+  scan.is_public = order.is_public;
+  scan.title = order.metadata.title;
+  scan.parameters = to_json_text(order);
+  scan.steps = order.request.steps;
+  return scan;
 }
 
 }  // namespace vitrine::server

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "acquisition/session/scan_request.h"
+#include "codec/core/expected.h"
 #include "codec/simplify/simplify.h"
+#include "server/catalogue/jobs.h"
 #include "server/jobs/order_fields.h"
 
 namespace vitrine::server {
@@ -17,7 +19,8 @@ namespace vitrine::server {
 struct ScanOrder {
   std::string scanner;  // name of the scanner
   acquisition::ScanRequest request;
-  // Number of the calibration. 0 means the newest one, or for a rebuild the one that the scan used.
+  // Number of the calibration. If 0, a new scan uses the newest calibration, and a rebuild uses the
+  // calibration of its scan.
   int calibration = 0;
 
   int bits = 0;  // see BuildOptions::bits
@@ -25,8 +28,8 @@ struct ScanOrder {
 
   ModelMetadata metadata;
   bool is_public = false;  // whether the model is published at once; else it is a draft
-  // Only for a rebuild: whether to publish the new model if visitors then see all of the scan's
-  // present model.
+  // Only for a rebuild: whether to publish the new model if visitors can see all levels of the
+  // scan's current model at that time.
   bool is_public_as_before = false;
   std::string webhook;  // URL to call when the job ends; empty: none
 };
@@ -55,5 +58,13 @@ std::string to_json_text(const CalibrationOrder& order);
 // Writes an order to scan or to rebuild for the job's record. parse_kept_order() reads that text.
 std::string to_json_text(const ScanOrder& order);
 tl::expected<ScanOrder, FieldFaults> parse_kept_order(const nlohmann::json& kept);
+
+// Both functions read a text that to_json_text() has written. The first fails with kState if the
+// text is damaged. The second returns the default order for jobs of earlier versions.
+Expected<ScanOrder> stored_scan_order(const std::string& parameters);
+CalibrationOrder stored_calibration_order(const std::string& parameters);
+
+// Returns the entry of a new scan. If the order has no title, the title contains the current time.
+ScanEntry new_scan(ScanOrder order);
 
 }  // namespace vitrine::server

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/scan_service.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "acquisition/session/reprocess.h"
@@ -16,7 +14,6 @@
 #include "server/jobs/job_claim.h"
 #include "server/jobs/retry_while_unreachable.h"
 #include "server/jobs/revolution.h"
-#include "server/sandbox/build_child.h"
 #include "server/store/published_model.h"
 
 namespace vitrine::server {
@@ -35,34 +32,6 @@ JobRecord new_job(JobKind kind, const std::string& scanner) {
   return job;
 }
 
-std::string title_of(const ScanOrder& order, std::int64_t created) {
-  const bool is_blank = order.metadata.title.find_first_not_of(' ') == std::string::npos;
-  if (!is_blank) return order.metadata.title;
-  return fmt::format("Scan of {:%Y-%m-%d %H:%M}",
-                     fmt::gmtime(static_cast<std::time_t>(created / 1000)));
-}
-
-ScanEntry new_scan(ScanOrder order) {
-  ScanEntry scan;
-  scan.id = ScanId::generate();
-  scan.created = now_in_milliseconds();
-  order.metadata.title = title_of(order, scan.created);
-  scan.scanner = order.scanner;
-  scan.is_public = order.is_public;
-  scan.title = order.metadata.title;
-  scan.parameters = to_json_text(order);
-  scan.steps = order.request.steps;
-  return scan;
-}
-
-Expected<ScanOrder> stored_order(const std::string& parameters) {
-  const auto json = nlohmann::json::parse(parameters, nullptr, /*allow_exceptions=*/false);
-  auto order = parse_kept_order(json.is_object() ? json : nlohmann::json::object());
-  if (order) return *order;
-  return fail(ErrorCode::kState, fmt::format("the scan's parameters are damaged at {}; scan again",
-                                             order.error().front().field));
-}
-
 Expected<void> check_calibrated(ScannerBackend& scanner) {
   const auto all = scanner.calibrations();
   if (!all) return tl::unexpected(all.error());
@@ -70,13 +39,6 @@ Expected<void> check_calibrated(ScannerBackend& scanner) {
   return fail(ErrorCode::kState, fmt::format("scanner {0} has no calibration; POST "
                                              "/api/v1/scanners/{0}/calibrations first",
                                              scanner.name()));
-}
-
-// Returns the order of a calibration job. A job of an earlier version gets the default values.
-CalibrationOrder calibration_order(const JobRecord& job) {
-  const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
-  return parse_calibration_order(json.is_object() ? json : nlohmann::json::object())
-      .value_or(CalibrationOrder{});
 }
 
 }  // namespace
@@ -366,7 +328,7 @@ Expected<std::vector<ScanInfo>> ScanService::list(const PageOf<ScanId>& page) {
 }
 
 Expected<ScanOrder> ScanService::order_of(const ScanEntry& scan) {
-  return stored_order(scan.parameters);
+  return stored_scan_order(scan.parameters);
 }
 
 Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& scan) {
@@ -381,8 +343,8 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   auto view = station->backend().view(folder_of(scan.id));
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
-  // Checks the revolution again under the lock, because remove_data() deletes it before it acquires
-  // the lock.
+  // Checks the revolution again under the lock. remove_data() deletes the revolution first and
+  // acquires the lock afterwards, so the check above may be outdated.
   if (auto here = check_revolution(scan); !here) return tl::unexpected(here.error());
   if (views_.size() >= kViews) views_.erase(views_.begin());
   views_[scan.id] = *view;
@@ -443,8 +405,22 @@ void ScanService::keep(const ScanEntry& entry, const JobRecord& by) {
 Expected<JobEnd> ScanService::work(JobRun& run) {
   auto end = work_on_kind(run);
   const auto model = run.job().model;
-  if (end && model && options_.when_added) options_.when_added(*model);
+  if (end && model) tell_added(*model);
   return end;
+}
+
+// Calls `when_added`. The model is in the catalogue already, so an exception, such as
+// std::bad_alloc, does not fail the job.
+void ScanService::tell_added(const ModelId& model) {
+  if (!options_.when_added) return;
+  try {
+    options_.when_added(model);
+  } catch (const std::exception& fault) {
+    options_.events.event(
+        Severity::kError,
+        fmt::format("model {} was added, but a later step failed: {}; the model is complete",
+                    model.to_string(), fault.what()));
+  }
 }
 
 Expected<JobEnd> ScanService::work_on_kind(JobRun& run) {
@@ -475,7 +451,7 @@ Expected<ScanEntry> ScanService::scan_of(const JobRun& run) {
 Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
   auto scan = scan_of(run);
   if (!scan) return tl::unexpected(scan.error());
-  const auto order = stored_order(scan->parameters);
+  const auto order = stored_scan_order(scan->parameters);
   if (!order) return tl::unexpected(order.error());
   if (auto settled = settle_revolution(run, *scan); !settled)
     return tl::unexpected(settled.error());
@@ -491,7 +467,7 @@ Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station)
 }
 
 Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
-  const auto order = stored_order(run.job().parameters);
+  const auto order = stored_scan_order(run.job().parameters);
   if (!order) return tl::unexpected(order.error());
   // Checks that this daemon has the scan's steps. They are missing if the request came to the wrong
   // daemon, or if another daemon has measured the scan again.
@@ -521,7 +497,8 @@ Expected<JobEnd> ScanService::calibrate(JobRun& run, ScannerStation& station) {
   };
   Progress progress(run);
   progress.report({});
-  const auto number = station.backend().calibrate(calibration_order(run.job()), progress);
+  const auto number =
+      station.backend().calibrate(stored_calibration_order(run.job().parameters), progress);
   return number ? Expected<JobEnd>(JobEnd::kDone) : tl::unexpected(number.error());
 }
 
@@ -536,30 +513,53 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
                          .placement = order.placement,
                          .z_is_up = true,
                          .folder = options_.data,
+                         .disk_reserve = options_.disk_reserve(),
                          .program = options_.program};
   const auto built = child.build(*file, build, [&](std::string_view, double done) {
     run.report("building", std::lerp(kMeshed, kBuilt, done));
   });
   if (!built) return tl::unexpected(built.error());
   run.repaired(built->repairs);
-  const std::vector<std::uint8_t>& pmesh = built->file;
-  const auto is_public = retry_while_unreachable(run, [&] { return may_be_public(run, order); });
+  const auto manifest = parse_header(built->file);
+  if (!manifest) return tl::unexpected(manifest.error());
+  const auto added = add_model(run, order, *built);
+  if (!added) return tl::unexpected(added.error());
+  const BuiltModel model{added->model, geometry_hash(*manifest)};
+  return retry_while_unreachable(run, [&] { return show(run, added->is_public, model); }).map([] {
+    return JobEnd::kDone;
+  });
+}
+
+// Adds the job's model to the catalogue, and publishes it if it may be public.
+Expected<ScanService::AddedModel> ScanService::add_model(JobRun& run, const ScanOrder& order,
+                                                         const ChildResult& built) {
+  auto is_public = retry_while_unreachable(run, [&] { return may_be_public(run, order); });
   if (!is_public) return tl::unexpected(is_public.error());
   const auto model = retry_while_unreachable(run, [&] {
-    return publish(options_.store, options_.catalogue, pmesh, order.metadata,
+    return publish(options_.store, options_.catalogue, built.file, order.metadata,
                    {.state = *is_public ? ModelState::kPublished : ModelState::kDraft,
                     .id = model_id_of(run.job()),
                     .quota = options_.quota,
-                    .by = claim_of(run.job())});
+                    .by = claim_of(run.job()),
+                    .repairs = built.repairs});
   });
   if (!model) return tl::unexpected(model.error());
   run.made(model->id);
-  const auto manifest = parse_header(pmesh);
-  if (!manifest) return tl::unexpected(manifest.error());
-  const BuiltModel shown_model{model->id, geometry_hash(*manifest)};
-  const auto shown =
-      retry_while_unreachable(run, [&] { return show(run, *is_public, shown_model); });
-  return shown ? Expected<JobEnd>(JobEnd::kDone) : tl::unexpected(shown.error());
+  // A model that is not new may come from an earlier, interrupted run of this job.
+  if (model->id == model_id_of(run.job()) && (*is_public || !model->is_new))
+    is_public = retry_while_unreachable(run, [&] { return stay_public(run, order, model->id); });
+  if (!is_public) return tl::unexpected(is_public.error());
+  return AddedModel{model->id, *is_public};
+}
+
+// Checks again whether the job's new model may be public, because storing its file takes long. If
+// it may not, makes the model a draft and returns false.
+Expected<bool> ScanService::stay_public(const JobRun& run, const ScanOrder& order,
+                                        const ModelId& model) {
+  auto may = may_be_public(run, order);
+  if (!may || *may) return may;
+  const auto hidden = options_.catalogue.set_state(model, ModelState::kDraft);
+  return hidden ? may : tl::unexpected(hidden.error());
 }
 
 // Whether to publish the model that the job has made. The scan's previous model may have been

@@ -8,12 +8,14 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "server/jobs/job_queue.h"
 #include "server/jobs/periodic_task.h"
 #include "server/jobs/scanner_claims.h"
 #include "server/jobs/scanner_station.h"
+#include "server/sandbox/build_child.h"
 #include "server/store/object_store.h"
 #include "server/store/quota.h"
 
@@ -35,14 +37,16 @@ struct ScanServiceOptions {
   Catalogue& catalogue;
   JobCatalogue& jobs;
   const Log& events;
-  std::filesystem::path data;                        // data folder of the installation
-  std::filesystem::path program = "/proc/self/exe";  // see BuildOrder::program
-  std::chrono::milliseconds idle_timeout{10'000};    // devices unused for this long are closed
-  JobTask publishing = {};                           // runs the jobs that publish models
-  Quota* quota = nullptr;                            // limits the bytes of models; null: no limit
-  TakenJobs taken = {};                              // the jobs that this daemon runs
-  const ScannerClaims* claims = nullptr;             // null: this daemon drives every scanner
-  // Called by a job after it has added a model to the catalogue and before the job ends.
+  std::filesystem::path data;                                // data folder of the installation
+  std::filesystem::path program = "/proc/self/exe";          // see BuildOrder::program
+  std::function<std::uint64_t()> disk_reserve = no_reserve;  // returns BuildOrder::disk_reserve
+  std::chrono::milliseconds idle_timeout{10'000};  // devices unused for this long are closed
+  JobTask publishing = {};                         // runs the jobs that publish models
+  Quota* quota = nullptr;                          // limits the bytes of models; null: no limit
+  TakenJobs taken = {};                            // the jobs that this daemon runs
+  const ScannerClaims* claims = nullptr;           // null: this daemon drives every scanner
+  // Called by a job after it has added a model to the catalogue and before the job ends. An
+  // exception is logged.
   std::function<void(const ModelId&)> when_added = {};
   // The clock for the time limit of a laser that an operator has switched on.
   std::function<ScannerStation::Clock::time_point()> now = ScannerStation::Clock::now;
@@ -57,7 +61,8 @@ class ScanService {
               std::vector<std::unique_ptr<ScannerBackend>> scanners);
   ~ScanService() { stop(); }
 
-  // Continues the jobs that an earlier run of the daemon left, and looks for the scanners.
+  // Continues the jobs that an earlier run of the daemon left unfinished, and looks for the
+  // scanners.
   Expected<void> start();
   // Stops running jobs, which continue at the next start. Laser and motor are off when the function
   // returns.
@@ -68,7 +73,7 @@ class ScanService {
   std::vector<ScannerStatus> scanners();
   ScannerStation* scanner(std::string_view name);  // null if there is no such scanner
   std::vector<std::string> names() const;          // scanners configured in this daemon
-  // Both functions return the result of the function of the same name in ScannerClaims.
+  // These two functions call the function of the same name in ScannerClaims.
   std::optional<std::string> address_of(const std::string& name) const;
   std::map<std::string, std::vector<std::string>> others() const;
   // Returns a new picture, or, while a scan runs, the latest picture of the scan.
@@ -78,10 +83,10 @@ class ScanService {
 
   // Starts a scan. `order.scanner` must be the name of a configured scanner.
   Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<IdempotencyKey>& key);
-  // Starts a job that makes another model from a scan. The scan must have steps, and no job may use
-  // it. If the order needs the scan's pictures, they must have been kept. The new model
-  // is a draft if visitors see only some levels of the scan's model, because its levels differ.
-  // Does not change the scan's state.
+  // Starts a job that makes another model from a scan. The scan must have measured steps, and no
+  // other job may use it. If the order needs the scan's pictures, they must have been kept. If
+  // visitors may see only some levels of the scan's current model, the new model becomes a draft,
+  // because its levels differ. Does not change the scan's state.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<IdempotencyKey>& key);
   // Deletes the measured data of a scan: profiles, points and kept pictures. Keeps the scan's
@@ -109,6 +114,7 @@ class ScanService {
   };
 
   Expected<JobEnd> work(JobRun& run);
+  void tell_added(const ModelId& model);
   Expected<JobEnd> work_on_kind(JobRun& run);
   Expected<ScanEntry> scan_of(const JobRun& run);
   Expected<JobEnd> work_on_scan(JobRun& run, ScannerStation& station);
@@ -122,7 +128,13 @@ class ScanService {
     ModelId model;
     Sha256 geometry{};
   };
+  struct AddedModel {
+    ModelId model;
+    bool is_public = false;
+  };
+  Expected<AddedModel> add_model(JobRun& run, const ScanOrder& order, const ChildResult& built);
   Expected<bool> may_be_public(const JobRun& run, const ScanOrder& order);
+  Expected<bool> stay_public(const JobRun& run, const ScanOrder& order, const ModelId& model);
   Expected<void> show(const JobRun& run, bool is_public, const BuiltModel& built);
   std::filesystem::path folder_of(const ScanId& id) const;
   std::uint64_t stops_of(const std::string& name);  // number of emergency stops of the scanner

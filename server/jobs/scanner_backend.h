@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface of a scanner to the jobs: its devices, scans and calibrations.
+// The interface through which jobs use a scanner: its devices, scans and calibrations.
 #pragma once
 
 #include <array>
@@ -90,7 +90,8 @@ struct CalibrationSummary {
   double coverage = 0;               // share of the picture that the target covered, 0..1
 };
 
-// A scanner. Only one thread may call the functions up to `close`; any thread may call the others.
+// A scanner. Only one thread may call the functions up to `close`. Any thread may call the
+// functions after `close`.
 class ScannerBackend {
  public:
   virtual ~ScannerBackend() = default;
@@ -99,7 +100,7 @@ class ScannerBackend {
   virtual Expected<ScannerIdentity> identify() = 0;
   virtual Expected<void> jog(double degrees) = 0;  // turns the table by an angle
   virtual Expected<void> laser(bool on) = 0;
-  // Restarts the time of the board's watchdog, so that the laser stays on. Fails without switching
+  // Resets the timer of the board's watchdog, so that the laser stays on. Fails without switching
   // anything on if the board is not open.
   virtual Expected<void> keep_laser() = 0;
   // Takes a picture. Uses only the camera, so this also works after an emergency stop.

@@ -52,7 +52,7 @@ void ScannerStation::look() {
 }
 
 void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
-  // KState means that an emergency stop is in force. The scanner is then still reachable.
+  // The error kState means that an emergency stop is in force. The scanner is then still reachable.
   if (!seen && seen.error().code == ErrorCode::kState) return;
   const std::scoped_lock lock(mutex_);
   if (seen) identity_ = *seen;

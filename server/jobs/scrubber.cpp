@@ -7,6 +7,7 @@
 #include <random>
 
 #include "server/jobs/clock.h"
+#include "server/store/file_object.h"
 
 namespace vitrine::server {
 
@@ -73,14 +74,36 @@ void Scrubber::check_catalogue() {
 void Scrubber::take(const NamedFile& file, ObjectState state) {
   ++objects;
   if (state == ObjectState::kIntact) {
+    if (has_damaged_copy(file.file)) drop_copies(file.file);
     needs_.models.set_intact(file.file);
   } else if (is_named(file.file)) {
     needs_.models.set_damaged(file.file);
+    forget_copies(file.file);
     needs_.events.event(Severity::kError,
                         to_text(DamagedFile{file, state}) +
                             "; put it back with 'vitrine repair', or publish the model again");
   }
   if (Clock::now() >= next_retry_) check_damaged();
+}
+
+bool Scrubber::has_damaged_copy(const Sha256& file) {
+  if (!needs_.store.keeps_copies()) return false;
+  const auto open = needs_.models.open_with(file);
+  return std::ranges::any_of(open, [&](const auto& model) {
+    return !is_intact_on_disk(model->file(), file, [this](std::uint64_t count) {
+      return pace(count);
+    }) && !stopping_.stop_requested();
+  });
+}
+
+// Closes the local copies of an object. The next request makes a new copy.
+void Scrubber::drop_copies(const Sha256& file) {
+  needs_.models.drop_copies(file);
+  forget_copies(file);
+  needs_.events.event(
+      Severity::kError,
+      fmt::format("the local copy of object {} was damaged and is loaded again; check the disk",
+                  to_hex(file)));
 }
 
 void Scrubber::check_damaged() {
@@ -100,6 +123,19 @@ void Scrubber::check_damaged() {
 bool Scrubber::is_named(const Sha256& file) {
   const auto files = needs_.catalogue.files();
   return !files || std::ranges::count(*files, file, &NamedFile::file) > 0;
+}
+
+// Calls `forget` with the public blocks of each model that refers to the file.
+void Scrubber::forget_copies(const Sha256& file) {
+  if (!needs_.forget) return;
+  const auto files = needs_.catalogue.files();
+  if (!files) return needs_.events.event(Severity::kWarning, files.error().message);
+  for (const NamedFile& named : *files) {
+    if (named.file != file) continue;
+    auto chunks = needs_.catalogue.public_chunks(named.model);
+    if (!chunks) return needs_.events.event(Severity::kWarning, chunks.error().message);
+    if (!chunks->empty()) needs_.forget(std::move(*chunks));
+  }
 }
 
 // Counts the bytes, and waits until more bytes may be read. Returns false if stop() was called.

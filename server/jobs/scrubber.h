@@ -28,6 +28,9 @@ struct ScrubberDependencies {
   // Returns the faults of the catalogue, as find_catalogue_faults() does.
   std::function<Expected<std::vector<std::string>>()> catalogue_faults;
   const Log& events;
+  // Asks shared caches to forget the blocks of a damaged file, because their copies may be damaged,
+  // too. Empty if there are no shared caches.
+  std::function<void(std::vector<Sha256> chunks)> forget = {};
 };
 
 class Scrubber {
@@ -48,8 +51,9 @@ class Scrubber {
   void start(std::uint64_t rate);
   void stop();
 
-  // Makes one pass: checks the catalogue and every object that it names. Withdraws damaged objects
-  // from the cache of models, and logs them. Returns false if the pass could not be completed.
+  // Makes one pass: checks the catalogue, every object that it names, and the local copies of
+  // cached models. Withdraws damaged objects from the cache of models and from shared caches, and
+  // logs them. Returns false if the pass could not be completed.
   bool check_all();
 
   // Checks the known damaged objects again. An object that is intact now, or that no model refers
@@ -67,9 +71,12 @@ class Scrubber {
 
   void check_catalogue();
   void take(const NamedFile& file, ObjectState state);
+  bool has_damaged_copy(const Sha256& file);
+  void drop_copies(const Sha256& file);
   bool pace(std::uint64_t count);
   bool wait_until(Clock::time_point time);  // returns false if stop() was called
   bool is_named(const Sha256& file);
+  void forget_copies(const Sha256& file);
 
   const ScrubberDependencies needs_;
   std::uint64_t rate_ = kDefaultRate;  // bytes per second

@@ -174,8 +174,8 @@ Expected<void> SessionBackend::jog(double degrees) {
 }
 
 Expected<void> SessionBackend::laser(bool on) {
-  // Switches the laser off with rest(), which also pauses the board's watchdog. Otherwise the
-  // watchdog would fire while no command follows.
+  // Switches the laser off with rest(), which also pauses the board's watchdog. Otherwise, the
+  // watchdog would trigger, because no further command follows.
   return closed_on_error(
       open().and_then([&] { return on ? board_->laser(true) : board_->rest(); }));
 }
@@ -202,7 +202,7 @@ Expected<std::shared_ptr<acquisition::Scan>> SessionBackend::open_scan(
   return std::shared_ptr<acquisition::Scan>(std::move(*scan));
 }
 
-// Sets the running scan, whose devices an emergency stop switches off; null if none runs.
+// Records the running scan, or null, so that an emergency stop can switch off the scan's devices.
 void SessionBackend::drive(const std::shared_ptr<acquisition::Scan>& scan) {
   const std::scoped_lock lock(mutex_);
   scan_ = scan;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls webhooks when jobs end. Calls only hosts that the operator has listed. Otherwise a client
-// of the API could make the daemon call servers inside the museum's network.
+// Calls webhooks when jobs end. Calls only hosts that the operator has listed. Without this limit,
+// a client of the API could make the daemon call servers inside the museum's network.
 #pragma once
 
 #include <atomic>

@@ -195,8 +195,8 @@ void Log::audit(const CommandRecord& record) const {
   write_line(descriptor_, line);
 }
 
-// Ignores exceptions: this function also reports lack of memory, and if that report fails as well,
-// nothing more can be done.
+// Ignores exceptions. This function also reports that memory has run out. If that report fails as
+// well, nothing more can be done.
 void Log::event(Severity severity, std::string_view message) const try {
   if (is_silent_.load(std::memory_order_relaxed)) return;
   LogLine line;

@@ -21,7 +21,7 @@ struct AccessRecord {
   std::string_view remote;  // address of the peer
   std::string_view method;
   std::string_view route;   // the route's template; "-" if no route matched
-  std::string_view target;  // target as the client sent it: untrusted text, which the log cuts
+  std::string_view target;  // target as the client sent it: untrusted text; the log shortens it
   unsigned status = 0;
   std::uint64_t bytes = 0;  // number of body bytes sent
   double seconds = 0;
@@ -34,7 +34,7 @@ struct AuditRecord {
   std::string_view token;   // the token's ID; "-" if the request has no valid token
   std::string_view method;
   std::string_view route;   // the route's template
-  std::string_view target;  // target as the client sent it: untrusted text, which the log cuts
+  std::string_view target;  // target as the client sent it: untrusted text; the log shortens it
   unsigned status = 0;
 };
 

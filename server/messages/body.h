@@ -9,7 +9,7 @@
 #include <string>
 #include <variant>
 
-#include "server/store/object_store.h"
+#include "server/content/object.h"
 
 namespace vitrine::server {
 

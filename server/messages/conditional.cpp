@@ -35,11 +35,11 @@ bool holds(std::string_view list, const Fits& fits) {
 }
 
 RangeChoice part(std::uint64_t offset, std::uint64_t length) {
-  return {RangeChoice::Kind::kPart, offset, length};
+  return {RangeChoice::Outcome::kPart, offset, length};
 }
 
 constexpr RangeChoice kWhole{};
-constexpr RangeChoice kUnsatisfiable{RangeChoice::Kind::kUnsatisfiable};
+constexpr RangeChoice kUnsatisfiable{RangeChoice::Outcome::kUnsatisfiable};
 
 // Chooses the last `text` bytes of a body of `size` bytes, for a range such as "bytes=-500".
 RangeChoice choose_suffix(std::string_view text, std::uint64_t size) {
@@ -81,8 +81,8 @@ Response partial(Response response, const RangeChoice& range) {
 }  // namespace
 
 bool matches_any(std::string_view list, std::string_view etag) {
-  // Also accepts the entity tag of the compressed body, because the client may have received that
-  // form of the state.
+  // Also accepts the entity tag of the compressed body, because the client may have received the
+  // body in this form.
   std::string compressed(etag);
   if (etag.ends_with('"')) compressed.insert(compressed.size() - 1, kGzipTagEnd);
   return holds(list, [&](std::string_view tag) { return tag == etag || tag == compressed; });
@@ -127,8 +127,9 @@ Response apply_conditions(const RequestHeader& request, Response response,
   if (!if_range.empty() && if_range != response.etag) return response;
   const std::uint64_t size = body_size(response.body);
   const RangeChoice choice = choose_range(range, size);
-  if (choice.kind == RangeChoice::Kind::kWhole) return response;
-  if (choice.kind == RangeChoice::Kind::kUnsatisfiable) return unsatisfiable(size, request_id);
+  if (choice.outcome == RangeChoice::Outcome::kWhole) return response;
+  if (choice.outcome == RangeChoice::Outcome::kUnsatisfiable)
+    return unsatisfiable(size, request_id);
   return partial(std::move(response), choice);
 }
 

@@ -53,7 +53,7 @@ bool is_public_json(const Response& response) {
 }
 
 // Marks a response whose body is a gzip file. Its entity tag differs from that of the uncompressed
-// form. Otherwise a cache could combine parts of both forms.
+// form: with equal tags, a cache could combine parts of both forms.
 void mark_compressed(Response& response) {
   response.fields.emplace_back("Content-Encoding", "gzip");
   if (response.etag.ends_with('"')) response.etag.insert(response.etag.size() - 1, kGzipTagEnd);
@@ -99,7 +99,7 @@ std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes) {
     bytes = bytes.subspan(given - stream.avail_in);
     out.insert(out.end(), piece.data(), stream.next_out);
   }
-  out.shrink_to_fit();  // caches count the size of a file, not its capacity
+  out.shrink_to_fit();  // caches count the size of a file, so it must have no unused capacity
   return out;
 }
 

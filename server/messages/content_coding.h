@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "server/content/document.h"
 #include "server/messages/http_header.h"
 #include "server/messages/response.h"
-#include "server/store/published_model.h"
 
 namespace vitrine::server {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "server/store/s3_address.h"
+#include "server/content/percent_encoding.h"
 
 namespace vitrine::server {
 namespace {

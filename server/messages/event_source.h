@@ -13,10 +13,10 @@ struct Event {
   std::string id;
 };
 
-// A source belongs to one connection, which calls its functions at most five times a second and
-// never from two threads at once. The connection calls next() only after the previous event has
+// A source belongs to one connection, which calls next() and ended() at most five times a second
+// and never from two threads at once. The connection calls next() only after the previous event has
 // been sent. A slow client therefore misses intermediate states, but events do not accumulate in
-// memory. Functions must not block, and may throw only std::bad_alloc.
+// memory. next() and ended() must not block, and may throw only std::bad_alloc.
 class EventSource {
  public:
   virtual ~EventSource() = default;
@@ -26,6 +26,10 @@ class EventSource {
   virtual std::optional<Event> next() = 0;
   // Whether next() has returned the last event.
   virtual bool ended() const = 0;
+  // Whether the client may still see the events. If not, the server ends the connection. Called
+  // about twice a second on a worker thread while the connection calls the other functions. May
+  // block.
+  virtual bool may_continue() { return true; }
 };
 
 }  // namespace vitrine::server

@@ -7,11 +7,11 @@
 namespace vitrine::server {
 namespace {
 
-std::optional<std::string> percent_decode(std::string_view text) {
+std::optional<std::string> percent_decode(std::string_view text, char plus) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {
-      out += text[i] == '+' ? ' ' : text[i];
+      out += text[i] == '+' ? plus : text[i];
       continue;
     }
     unsigned value = 0;
@@ -37,6 +37,10 @@ std::optional<RequestTarget> split_target(std::string_view target) {
   return RequestTarget{target.substr(0, mark), target.substr(std::min(target.size(), mark + 1))};
 }
 
+std::optional<std::string> decode_path(std::string_view text) {
+  return percent_decode(text, '+');
+}
+
 std::optional<Query> Query::parse(std::string_view text) {
   Query query;
   while (!text.empty()) {
@@ -44,8 +48,8 @@ std::optional<Query> Query::parse(std::string_view text) {
     text.remove_prefix(std::min(text.size(), pair.size() + 1));
     if (pair.empty()) continue;
     const std::string_view name = pair.substr(0, pair.find('='));
-    auto key = percent_decode(name);
-    auto value = percent_decode(pair.substr(std::min(pair.size(), name.size() + 1)));
+    auto key = percent_decode(name, ' ');
+    auto value = percent_decode(pair.substr(std::min(pair.size(), name.size() + 1)), ' ');
     if (!key || !value || query.parameters_.size() == kMaxParameters) return std::nullopt;
     query.parameters_.emplace_back(std::move(*key), std::move(*value));
   }
@@ -55,6 +59,14 @@ std::optional<Query> Query::parse(std::string_view text) {
 std::optional<std::string_view> Query::get(std::string_view name) const {
   for (const auto& [key, value] : parameters_) {
     if (key == name) return value;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string_view> Query::repeated() const {
+  for (auto at = parameters_.begin(); at != parameters_.end(); ++at) {
+    const auto is_same = [&](const auto& other) { return other.first == at->first; };
+    if (std::any_of(parameters_.begin(), at, is_same)) return at->first;
   }
   return std::nullopt;
 }

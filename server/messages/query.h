@@ -19,6 +19,9 @@ struct RequestTarget {
 };
 std::optional<RequestTarget> split_target(std::string_view target);
 
+// Percent-decodes a part of a path. Returns nullopt if an escape is malformed.
+std::optional<std::string> decode_path(std::string_view text);
+
 // The parameters of a query, percent-decoded. A '+' is decoded as a space.
 class Query {
  public:
@@ -28,6 +31,8 @@ class Query {
   // Returns the name of the first parameter that is not in `known`, or nullopt if `known` contains
   // all names.
   std::optional<std::string_view> unknown(std::span<const std::string_view> known) const;
+  // Returns the name of the first parameter that is given several times, or nullopt.
+  std::optional<std::string_view> repeated() const;
   // Returns the value of a parameter, or nullopt if it is not given. If it is given several times,
   // returns the first value.
   std::optional<std::string_view> get(std::string_view name) const;

@@ -24,19 +24,19 @@ class Watch {
   bool operator()(int depth, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
     using Event = nlohmann::json::parse_event_t;
     const bool starts = event == Event::object_start || event == Event::array_start;
-    if (starts && depth >= kMaxBodyDepth) too_deep_ = true;
+    if (starts && depth >= kMaxBodyDepth) is_too_deep_ = true;
     if (event == Event::object_start) names_.emplace_back();
     if (event == Event::key && !names_.back().insert(value.get_ref<const std::string&>()).second)
-      repeated_ = true;
+      has_repeated_name_ = true;
     if (event == Event::object_end) names_.pop_back();
-    return !too_deep_ && !repeated_;
+    return !is_too_deep_ && !has_repeated_name_;
   }
-  bool too_deep() const { return too_deep_; }
-  bool repeated() const { return repeated_; }
+  bool is_too_deep() const { return is_too_deep_; }
+  bool has_repeated_name() const { return has_repeated_name_; }
 
  private:
   std::vector<std::set<std::string>> names_;  // the names in each open object
-  bool too_deep_ = false, repeated_ = false;
+  bool is_too_deep_ = false, has_repeated_name_ = false;
 };
 
 }  // namespace
@@ -51,8 +51,8 @@ tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
   if (text.find('\0') != text.npos) return tl::unexpected(BodyFault{400, "the body is not JSON"});
   Watch watch;
   nlohmann::json json = nlohmann::json::parse(text, std::ref(watch), /*allow_exceptions=*/false);
-  if (watch.too_deep()) return tl::unexpected(BodyFault{400, "the body is nested too deep"});
-  if (watch.repeated()) return tl::unexpected(BodyFault{400, "the body has a name twice"});
+  if (watch.is_too_deep()) return tl::unexpected(BodyFault{400, "the body is nested too deep"});
+  if (watch.has_repeated_name()) return tl::unexpected(BodyFault{400, "the body has a name twice"});
   if (!json.is_object()) return tl::unexpected(BodyFault{400, "the body is not a JSON object"});
   return json;
 }

@@ -107,7 +107,8 @@ std::string response_head(const Response& response, const HeadOptions& options) 
   if (options.is_public_read) {
     head +=
         "Access-Control-Allow-Origin: *\r\n"
-        "Access-Control-Expose-Headers: Content-Range, ETag, Link, X-Request-Id\r\n"
+        "Access-Control-Expose-Headers: Content-Range, ETag, Link, "
+        "Vitrine-Presentation, X-Request-Id\r\n"
         "Cross-Origin-Resource-Policy: cross-origin\r\n";
   } else if (!options.trusted_origin.empty()) {
     append(head, {"Access-Control-Allow-Origin: ", options.trusted_origin,
@@ -120,7 +121,7 @@ std::string response_head(const Response& response, const HeadOptions& options) 
   if (options.is_encrypted) head += "Strict-Transport-Security: max-age=31536000\r\n";
   for (const auto& [name, value] : response.fields)
     append(head, {name, ": ", value, "\r\n"});
-  if (!options.keep_alive) {
+  if (!options.keeps_alive) {
     head += "Connection: close\r\n";
   } else if (options.version < 11) {
     head += "Connection: keep-alive\r\n";

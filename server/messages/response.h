@@ -52,7 +52,7 @@ std::string entity_tag(std::string_view body);
 
 struct HeadOptions {
   std::string_view request_id;
-  bool keep_alive = true;
+  bool keeps_alive = true;
   bool is_public_read = true;  // whether pages of any origin may read and embed the response
   // an origin whose pages may read the response; empty if there is none
   std::string_view trusted_origin = {};

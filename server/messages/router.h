@@ -63,12 +63,22 @@ using Handler = std::function<Response(const Request& request)>;
 // Answers from memory without blocking. Returns nullopt if the Handler must answer.
 using QuickHandler = std::function<std::optional<Response>(const Request& request)>;
 
+// A file that a handler needs and that takes long to open, because all of it is hashed.
+struct Opening {
+  std::string name;  // the same for all requests for this file
+  std::function<bool()>
+      open;  // opens the file before the handler runs; returns false if that fails
+};
+// Returns the file that must be opened before the Handler runs, or nullopt. May wait for the
+// catalogue.
+using OpeningFinder = std::function<std::optional<Opening>(const Request& request)>;
+
 // The thread on which a handler runs.
 enum class Executor : std::uint8_t {
   kInline,   // the connection's own thread: the handler uses memory and open files only
   kWorker,   // a worker thread: the handler may wait for the catalogue and read from the disk
   kDisk,     // a thread for handlers that wait for durable writes or for the store's lock
-  kCompute,  // a thread for long computations; callers take turns; one computation per target
+  kCompute,  // a thread for long computations; callers take turns; one task per target
   kDevice,   // a thread for handlers that wait for devices, for up to several seconds
 };
 
@@ -86,6 +96,9 @@ struct Route {
   // If it returns nullopt and the caller is then authorised, the server calls it again, now with
   // the caller.
   QuickHandler quick;
+  // Optional. Returns the file that the server opens before it calls `handler`. The request
+  // meanwhile occupies no thread for handlers.
+  OpeningFinder opens = {};
   Executor executor = Executor::kInline;
   Role role = Role::kNone;  // the lowest role that a caller needs; kNone: no token is needed
   // For POST and PATCH: true if the server parses the body as JSON, false if Response::sink

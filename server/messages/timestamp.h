@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats points in time for JSON and for HTTP header fields.
+// Formats points in time for JSON, XML and HTTP header fields, and parses them.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace vitrine::server {
 
@@ -12,5 +15,15 @@ std::string timestamp(std::int64_t milliseconds);
 
 // Formats seconds since 1970, UTC, for HTTP header fields (RFC 9110, 5.6.7).
 std::string http_date(std::int64_t seconds);
+
+// Formats seconds since 1970, UTC, such as 2026-11-28T09:30:00Z.
+std::string utc_time(std::int64_t seconds);
+
+// Parses a date of the form 2026-11-28, from the year 1 to 9999.
+std::optional<std::chrono::sys_days> parse_date(std::string_view text);
+
+// Parses a time of the form 2026-11-28T09:30:00Z. Returns seconds since 1970, which are negative
+// before.
+std::optional<std::int64_t> parse_utc_time(std::string_view text);
 
 }  // namespace vitrine::server

@@ -20,6 +20,8 @@
 
 #include "codec/build/build_model.h"
 #include "codec/build/verify_model.h"
+#include "codec/core/bounded_lines.h"
+#include "codec/core/printable.h"
 #include "codec/format/signature.h"
 #include "server/sandbox/child_channel.h"
 
@@ -29,24 +31,24 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// The child's arguments are: --build-child PARENT BITS PLACEMENT UP UNIT FOLDER NAME. The child
-// reads the mesh from standard input and writes the result to standard output.
+// The child's arguments are: --build-child PARENT BITS PLACEMENT UP UNIT FOLDER RESERVE NAME. The
+// child reads the mesh from standard input and writes the result to standard output.
 constexpr std::string_view kChild = "--build-child";
-constexpr std::size_t kArguments = 8;
+constexpr std::size_t kArguments = 9;
 
 Unexpected refused(const char* what) {
   return fail(ErrorCode::kIo, fmt::format("cannot {}: {}; free some memory and try again", what,
                                           std::strerror(errno)));
 }
 
-// Largest size in bytes of the working file, so that one build does not fill the disk, on which
-// models and uploads may be as well. The size suffices for 70 million triangles. A larger mesh can
-// be built elsewhere, and its .pmesh file uploaded.
+// Largest size of the spill file in bytes. It prevents one build from filling the disk, which may
+// also contain models and uploads. The size suffices for 70 million triangles. A larger mesh can be
+// built elsewhere, and its .pmesh file uploaded.
 constexpr std::uint64_t kMostSpilled = 16ull << 30;
 constexpr std::size_t kMostRepairs = 4096;  // largest size in bytes of ChildResult::repairs
 
-SandboxLimits limits_of(const std::filesystem::path& folder) {
-  return {.spill = {.folder = folder, .max_bytes = kMostSpilled}};
+SandboxLimits limits_of(const std::filesystem::path& folder, std::uint64_t disk_reserve) {
+  return {.spill = {.folder = folder, .max_bytes = kMostSpilled, .disk_reserve = disk_reserve}};
 }
 
 // Returns an unnamed file in memory with these bytes, which the child can map.
@@ -83,6 +85,7 @@ Expected<pid_t> start(const BuildOrder& order, int mesh, int answer) {
       std::to_string(order.z_is_up ? 1 : 0),
       order.unit,
       order.folder.string(),
+      std::to_string(order.disk_reserve),
       order.name};
   std::string name = "vitrine-build";
   std::vector<char*> arguments = {name.data()};
@@ -102,6 +105,17 @@ Expected<pid_t> start(const BuildOrder& order, int mesh, int answer) {
   return pid;
 }
 
+std::string printable_lines(std::string_view text) {
+  std::string out;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    out += printable_text(text.substr(0, end));
+    if (end == text.npos) return out;
+    out += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
 // Splits the child's answer into the file and the repairs.
 Expected<ChildResult> separate(Bytes answer) {
   const auto damaged = [] {
@@ -117,15 +131,16 @@ Expected<ChildResult> separate(Bytes answer) {
   const auto begin = answer.end() - static_cast<std::ptrdiff_t>(length);
   result.repairs.assign(begin, answer.end());
   answer.erase(begin, answer.end());
-  std::erase_if(result.repairs, [](char c) { return c != '\n' && (c < ' ' || c > '~'); });
+  result.repairs = printable_lines(result.repairs);
   result.file = std::move(answer);
   return result;
 }
 
 // The functions from here to the end of the namespace run in the child.
 
-int number(std::string_view text) {
-  int value = 0;
+template <class Number = int>
+Number number(std::string_view text) {
+  Number value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
 }
@@ -151,10 +166,8 @@ void close_the_rest() {
 
 // Appends the lines to the file, and then the length of the lines in four bytes. separate() reads
 // this form.
-Bytes joined(Bytes file, const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines)
-    if (text.size() + line.size() < kMostRepairs) text += (text.empty() ? "" : "\n") + line;
+Bytes with_repairs(Bytes file, const std::vector<std::string>& lines) {
+  const std::string text = bounded_lines(lines, kMostRepairs);
   file.insert(file.end(), text.begin(), text.end());
   for (int shift = 0; shift < 32; shift += 8)
     file.push_back(static_cast<std::uint8_t>(text.size() >> shift));
@@ -164,7 +177,7 @@ Bytes joined(Bytes file, const std::vector<std::string>& lines) {
 Expected<Bytes> verify(std::span<const std::uint8_t> pmesh, const ProgressReport& progress) {
   const auto verified = verify_model(pmesh, std::nullopt, progress);
   if (!verified) return tl::unexpected(verified.error());
-  return joined({}, {});
+  return with_repairs({}, {});
 }
 
 }  // namespace
@@ -179,16 +192,16 @@ void become_build_child(std::span<const std::string_view> arguments) {
   const auto mesh = map_input();
   const BuildOptions options{.reading = {.unit = arguments[5],
                                          .up = arguments[4] == "1" ? UpAxis::kZ : UpAxis::kY,
-                                         .name = arguments[7]},
+                                         .name = arguments[8]},
                              .bits = number(arguments[2]),
                              .placement = static_cast<Placement>(number(arguments[3]))};
-  answer_and_exit(STDOUT_FILENO, limits_of(arguments[6]),
+  answer_and_exit(STDOUT_FILENO, limits_of(arguments[6], number<std::uint64_t>(arguments[7])),
                   [&](const ProgressReport& progress) -> Expected<Bytes> {
                     if (!mesh) exit_without_memory();
                     if (is_pmesh(*mesh)) return verify(*mesh, progress);
                     auto built = build_model(*mesh, options, progress);
                     if (!built) return tl::unexpected(built.error());
-                    return joined(std::move(built->file), built->report.input.repairs);
+                    return with_repairs(std::move(built->file), built->report.input.repairs);
                   });
 }
 
@@ -220,7 +233,7 @@ Expected<ChildResult> BuildChild::build(const FileDescriptor& mesh, const BuildO
   if (!pid) return tl::unexpected(pid.error());
   pipe->write.reset();
   watch(*pid);
-  const SandboxLimits limits = limits_of(order.folder);
+  const SandboxLimits limits = limits_of(order.folder, order.disk_reserve);
   auto answer = await_answer(*pid, pipe->read.get(), limits, progress);
   const std::scoped_lock lock(mutex_);
   child_.reset();

@@ -25,8 +25,14 @@ struct BuildOrder {
   std::string name = {};  // see ReadOptions::name
   // folder of the spill file (spill.h); empty if there must be no spill file
   std::filesystem::path folder;
+  std::uint64_t disk_reserve = 0;                    // see SpillOptions::disk_reserve
   std::filesystem::path program = "/proc/self/exe";  // executable that calls become_build_child()
 };
+
+// The value of BuildOrder::disk_reserve if builds may fill the disk.
+inline std::uint64_t no_reserve() {
+  return 0;
+}
 
 // If the arguments are those of a child, runs the child and does not return. Call this first in
 // main().
@@ -34,8 +40,9 @@ void become_build_child(std::span<const std::string_view> arguments);
 
 struct ChildResult {
   std::vector<std::uint8_t> file;  // the .pmesh file
-  // The build's repairs and losses, one line for each kind; at most 4,096 bytes of printable text.
-  // The child writes this text, so it may be wrong if the mesh was hostile.
+  // The build's repairs and losses, one line for each kind; at most 4,096 bytes of UTF-8 without
+  // control characters. If there are more lines, the last line states their number. The child
+  // writes this text, so it may be wrong if the mesh was hostile.
   std::string repairs;
 };
 

@@ -86,7 +86,7 @@ bool lacks_address_space(const SandboxLimits& limits) {
 
 int exit_code_without_memory = kOutOfMemory;
 
-// Ends the process with the exit code that stands for the exception being handled.
+// Ends the process with the exit code for the exception that is being handled.
 [[noreturn]] void exit_for_exception() noexcept {
   try {
     if (const auto fault = std::current_exception()) std::rethrow_exception(fault);

@@ -157,8 +157,8 @@ Expected<void> set_limits(const SandboxLimits& limits) {
   };
   if (kLimitMemory) {
     limit(RLIMIT_AS, limits.memory_bytes + spill_capacity());
-    // Limits private memory, too. Otherwise private memory could use the address space of unmapped
-    // parts of the spill file.
+    // Limits private memory, too. Without this limit, private memory could use the address space of
+    // unmapped parts of the spill file.
     limit(RLIMIT_DATA, limits.memory_bytes);
   }
   limit(RLIMIT_CPU, limits.cpu_seconds, 1);  // sends SIGXCPU, and SIGKILL one second later

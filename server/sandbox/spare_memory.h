@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A reserve for small allocations while the system is out of memory. Some code that handles lack of
 // memory must itself allocate and cannot fail: the destructors of nlohmann-json, and Asio when it
-// creates a strand. Without the reserve, the daemon would crash there. Large allocations still
+// creates a strand. Without the reserve, this code would crash the daemon. Large allocations still
 // fail, and so do the requests that need them.
 #pragma once
 

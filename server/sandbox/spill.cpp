@@ -28,15 +28,15 @@
 namespace vitrine::server {
 namespace {
 
-// Blocks of at least this many bytes may spill. This is the block size of Segments.
+// Blocks of at least this many bytes may spill. Class Segments allocates blocks of this size.
 constexpr std::size_t kLarge = 8192;
 // The disk space of a freed range is released if the range has at least this many bytes.
 constexpr std::size_t kWorthHole = 1 << 20;
 constexpr std::size_t kLargestPage = 65'536;  // largest page size of any supported kernel
 // Blocks spill once large blocks in memory take 1 / kHeldShare of the memory limit.
 constexpr std::uint64_t kHeldShare = 4;
-// trim() unmaps pages once the process uses this share of the memory limit. The rest is for pages
-// that are loaded before the next check.
+// trim() unmaps pages once the process uses this share of the memory limit. The remaining memory is
+// for pages that are loaded before the next check.
 constexpr double kTrimShare = 0.625;
 constexpr std::uint64_t kFew = 8;
 constexpr auto kLook = std::chrono::milliseconds(1);
@@ -163,10 +163,12 @@ FileDescriptor nameless_file(const std::filesystem::path& folder) {
   return fd;
 }
 
-std::size_t capacity_on(const struct statvfs& disk, std::uint64_t most) {
+std::size_t capacity_on(const struct statvfs& disk, const SpillOptions& options) {
   struct rlimit file {};
+  std::uint64_t most = options.max_bytes;
   if (::getrlimit(RLIMIT_FSIZE, &file) == 0) most = std::min<std::uint64_t>(most, file.rlim_cur);
-  most = std::min<std::uint64_t>(most, disk.f_bavail / 2 * disk.f_frsize);
+  const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize;
+  most = std::min(most, (room - std::min(room, options.disk_reserve)) / 2);
   return most / PageRanges::kPage * PageRanges::kPage;
 }
 
@@ -177,7 +179,7 @@ Expected<void> open_spill(const SpillOptions& options) {
   const FileDescriptor file = nameless_file(options.folder);
   struct statvfs disk {};
   if (!file || ::fstatvfs(file.get(), &disk) != 0) return refused(options.folder, errno);
-  const std::size_t capacity = capacity_on(disk, options.max_bytes);
+  const std::size_t capacity = capacity_on(disk, options);
   if (capacity == 0 || ::ftruncate(file.get(), static_cast<off_t>(capacity)) != 0) return {};
   void* base = ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
   if (base == MAP_FAILED) return {};

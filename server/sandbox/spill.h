@@ -21,6 +21,8 @@ struct SpillOptions {
   // Largest size of the spill file. The default suffices for 300 million triangles, and any system
   // can map it.
   std::uint64_t max_bytes = 64ull << 30;
+  // Free space that the spill file leaves on its disk, in bytes.
+  std::uint64_t disk_reserve = 0;
   // A read-only mapping of a file from its start. Its pages may be unmapped as well to save memory.
   std::span<const std::uint8_t> input = {};
 };
@@ -28,15 +30,15 @@ struct SpillOptions {
 // Starts spilling for the rest of the process's life. Call this once, while the process has one
 // thread. Then call start_trimming() when threads may be started; the process may give up the right
 // to open files between the two calls. The spill file immediately reserves address space: as much
-// as half of the disk's free space, but at most max_bytes and at most RLIMIT_FSIZE. Blocks that do
-// not fit into the file use memory instead, and so do all blocks if the disk cannot hold or map
-// such a file. Fails with kIo if no file can be created. If other programs fill the disk later, the
-// process ends with SIGBUS.
+// as half of the disk's free space beyond disk_reserve, but at most max_bytes and at most
+// RLIMIT_FSIZE. Blocks that do not fit into the file use memory instead, and so do all blocks if
+// the disk cannot hold or map such a file. Fails with kIo if no file can be created. If other
+// programs fill the disk later, the process ends with SIGBUS.
 Expected<void> open_spill(const SpillOptions& options);
 void start_trimming();
 
 // The functions below return 0 if the process does not spill.
-std::uint64_t spill_capacity();  // address space of the spill file
+std::uint64_t spill_capacity();  // address space of the spill file, in bytes
 std::uint64_t spilled_bytes();   // total size in bytes of the blocks now in the file
 std::uint64_t mapped_bytes();    // bytes of mapped files now in memory
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "codec/build/open_model.h"
 #include "server/store/model_file.h"
 #include "server/store/published_model.h"
 #include "server/store/stored_file.h"
@@ -34,6 +35,25 @@ Expected<Bytes> read_file(const ObjectStore& store, const ModelRecord& record) {
   const auto model = PublishedModel::open(store, record);
   if (!model) return tl::unexpected(model.error());
   return (*model)->read((*model)->whole());
+}
+
+// Sets the box of the turned vertices, if the box of the file does not determine it. Models of more
+// than kMostMeasured triangles are measured at a coarser level of detail, which differs little.
+Expected<void> measure_turned(Presentation& presentation, std::span<const std::uint8_t> pmesh) {
+  constexpr std::uint64_t kMostMeasured = 1'000'000;
+  const PresentationTransform placement(presentation);
+  presentation.turned_box.reset();
+  if (placement.keeps_axes()) return {};
+  auto refiner = open_model(pmesh);
+  if (!refiner) return tl::unexpected(refiner.error());
+  const ChunkReader chunks = chunks_of(refiner->manifest(), pmesh);
+  if (auto done = refine(*refiner, WantTriangles{kMostMeasured}, chunks); !done) return done;
+  std::vector<Vec3> points = refiner->display_mesh().positions;
+  if (points.empty()) return {};
+  for (Vec3& point : points)
+    point = placement.turned(point);
+  presentation.turned_box = bounds_of(points);
+  return {};
 }
 
 // A .pmesh file that will be stored.
@@ -120,11 +140,14 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
     if (!*found) return fail(ErrorCode::kState, "the model to replace is gone; publish a new one");
     if (refused && (*found)->version == tried) return tl::unexpected(*refused);
     ModelRecord record = with_texts(**found, metadata);
+    record.repairs = as.repairs;
     if (as.state == ModelState::kPublished) record.state = as.state;
+    if (auto measured = measure_turned(record.presentation, pmesh); !measured)
+      return tl::unexpected(measured.error());
     const auto done = store_files(store, catalogue, **lock, **found, record, pmesh, as);
     if (done) return Publication{.id = record.id};
     // Catalogue::set_state() does not need the lock, so another caller may have changed the model
-    // with it. The loop then tries again with the new version.
+    // in the meantime. The loop then tries again with the new version.
     if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
     refused = done.error();
     tried = (*found)->version;
@@ -153,6 +176,12 @@ Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const Mod
     return fail(ErrorCode::kState, "the model was changed or removed meanwhile; read it again");
   const ModelRecord& before = **found;
   ModelRecord record = wanted;
+  if (record.presentation.rotation != before.presentation.rotation) {
+    const auto pmesh = read_file(store, before);
+    if (!pmesh) return tl::unexpected(pmesh.error());
+    if (auto measured = measure_turned(record.presentation, *pmesh); !measured)
+      return tl::unexpected(measured.error());
+  }
   const auto level = [](const ModelRecord& m) {
     return m.public_part ? std::optional(m.public_part->max_level) : std::nullopt;
   };

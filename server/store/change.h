@@ -9,17 +9,18 @@ namespace vitrine::server {
 // Returns the record as visitors without a token may see it: with the public part as its file.
 ModelRecord public_view(ModelRecord record);
 
-// Replaces the file of the model `as.id` by `pmesh`. Also replaces the texts that `metadata`
-// contains. The model's other texts and its public level stay. Publishes a draft if `as.state` is
-// kPublished. Fails with kState if the model does not exist.
+// Replaces the file of the model `as.id` by `pmesh`, and its repairs by `as.repairs`. Also replaces
+// the texts that `metadata` contains. The model's other texts, its public level and its
+// presentation stay. Publishes
+// a draft if `as.state` is kPublished. Fails with kState if the model does not exist.
 Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as);
 
-// Changes a model and returns its new record. Takes the texts, the unit, the accuracy and the
-// max_level of public_part from `wanted`, and ignores its other members. Rewrites the model's files
-// if the unit or the public part changes. Fails with kState if another caller has changed the model
-// meanwhile, and with kLimit if the files exceed `quota`.
+// Changes a model and returns its new record. Takes the texts, the unit, the accuracy, the
+// presentation and the max_level of public_part from `wanted`, and ignores its other members.
+// Rewrites the model's files if the unit or the public part changes. Fails with kState if another
+// caller has changed the model meanwhile, and with kLimit if the files exceed `quota`.
 Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const ModelRecord& wanted,
                              Quota* quota = nullptr);
 

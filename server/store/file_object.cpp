@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store/file_object.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -40,15 +41,6 @@ class FileObject final : public Object {
 
 }  // namespace
 
-Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint64_t length) const {
-  if (offset > size() || length > size() - offset) {
-    return fail(ErrorCode::kIo, "read beyond the end of an object; check the data folder");
-  }
-  std::vector<std::uint8_t> bytes(length);
-  if (auto done = read(offset, std::span(bytes)); !done) return tl::unexpected(done.error());
-  return bytes;
-}
-
 std::unique_ptr<Object> object_in(FileDescriptor file, std::uint64_t size) {
   return std::make_unique<FileObject>(std::move(file), size);
 }
@@ -63,6 +55,24 @@ bool is_intact(const Object& object, const Sha256& name, const OnPiece& on_piece
     if (!on_piece(piece.size())) return false;
   }
   return hasher.finish() == name;
+}
+
+// Before it reads a piece, asks the kernel to drop its cached copy. Does not drop the following
+// pieces yet, because visitors may need them.
+bool is_intact_on_disk(const Object& object, const Sha256& name, const OnPiece& on_piece) {
+  std::uint64_t at = 0;
+  const auto forget_next = [&](std::uint64_t length) {
+    if (const auto file = object.descriptor()) {
+      static_cast<void>(::posix_fadvise(*file, static_cast<off_t>(at), static_cast<off_t>(length),
+                                        POSIX_FADV_DONTNEED));
+    }
+  };
+  forget_next(kPieceBytes);
+  return is_intact(object, name, [&](std::uint64_t length) {
+    at += length;
+    forget_next(length);
+    return on_piece(length);
+  });
 }
 
 }  // namespace vitrine::server

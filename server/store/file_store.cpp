@@ -188,23 +188,13 @@ Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
   return object;
 }
 
-// Before it reads a piece, asks the kernel to drop its cached copy, so that the bytes come from the
-// disk. Does not drop the following pieces yet, because visitors may need them.
 Expected<ObjectState> FileStore::check(const Sha256& name, const OnPiece& on_piece) const {
   const auto object = open_unchecked(name);
   if (!object) return tl::unexpected(object.error());
   if (*object == nullptr) return ObjectState::kMissing;
   const auto stamp = stamp_of(**object);
-  std::uint64_t at = 0;
-  const auto forget_next = [&](std::uint64_t length) {
-    static_cast<void>(::posix_fadvise(*(*object)->descriptor(), static_cast<off_t>(at),
-                                      static_cast<off_t>(length), POSIX_FADV_DONTNEED));
-  };
-  forget_next(kPieceBytes);
   bool is_stopped = false;
-  const bool intact = is_intact(**object, name, [&](std::uint64_t length) {
-    at += length;
-    forget_next(length);
+  const bool intact = is_intact_on_disk(**object, name, [&](std::uint64_t length) {
     is_stopped = !on_piece(length);
     return !is_stopped;
   });

@@ -14,8 +14,6 @@
 #include "server/catalogue/postgres_faults.h"
 #include "server/catalogue/private_file.h"
 #include "server/catalogue/sql_catalogue.h"
-#include "server/catalogue/sql_jobs.h"
-#include "server/catalogue/sql_visits.h"
 #include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_faults.h"
 #include "server/store/file_lock.h"

@@ -45,8 +45,8 @@ Expected<void> check_installation(const std::filesystem::path& folder);
 Expected<void> make_data_folder(const std::filesystem::path& folder);
 
 // Checks that the folder is an installation, or contains only entries that a folder may have before
-// an installation is created in it. Otherwise a mistyped name would create an installation that no
-// daemon serves. Fails with kIo.
+// an installation is created in it. Without this check, a mistyped name would create an
+// installation that no daemon serves. Fails with kIo.
 Expected<void> check_data_folder(const std::filesystem::path& folder);
 
 // Checks the form of the addresses without connecting. Fails with kBadInput.

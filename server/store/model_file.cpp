@@ -8,8 +8,8 @@
 namespace vitrine::server {
 namespace {
 
-// Removes the levels finer than `last_level` and their chunks. If there are any, also removes the
-// pictures behind the chunks. Always removes the optional blocks, such as the source's pictures.
+// Removes the levels finer than `last_level` and their chunks. If it removes any, also removes the
+// pictures after the chunks. Always removes the optional blocks, such as the source's pictures.
 // Positions of merged vertices are rounded down and up alternately, level by level, counted from
 // the finest (FORMAT.md, section 5). Therefore removes an even number of levels: if the requested
 // number is odd, removes one level more, but never the base mesh.

@@ -15,27 +15,9 @@
 #include "codec/core/expected.h"
 #include "codec/core/sha256.h"
 #include "server/catalogue/exclusive_lock.h"
+#include "server/content/object.h"
 
 namespace vitrine::server {
-
-// An object that is open for reading. It stays readable until it is destroyed, even if the store
-// removes it. Safe to use from several threads at once.
-class Object {
- public:
-  virtual ~Object() = default;
-
-  virtual std::uint64_t size() const = 0;
-
-  // Fills `out` with the bytes from `offset` on. Fails with kIo if they extend beyond the object's
-  // end.
-  virtual Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const = 0;
-
-  // Returns a descriptor for sendfile(2), which the object owns, or nullopt if the object is not in
-  // a file. All users share the descriptor's file position, so pass an explicit offset to sendfile.
-  virtual std::optional<int> descriptor() const { return std::nullopt; }
-
-  Expected<std::vector<std::uint8_t>> read(std::uint64_t offset, std::uint64_t length) const;
-};
 
 enum class ObjectState { kIntact, kDamaged, kMissing };
 
@@ -82,6 +64,9 @@ class ObjectStore {
   // Reads the whole object from the disk or the bucket and checks its SHA-256, even if it was
   // checked before. Fails with kIo if the store fails or `on_piece` returned false.
   virtual Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const = 0;
+
+  // Whether open objects are local copies, which check() does not read.
+  virtual bool keeps_copies() const { return false; }
 
   // Returns the size of an object without opening it, or nullopt if the object does not exist.
   virtual Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const = 0;

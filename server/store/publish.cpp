@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "server/metadata/fields.h"
 #include "server/store/stored_file.h"
 #include "server/store/text.h"
 
@@ -25,6 +26,7 @@ ModelRecord new_record(const StoredFile& file, const ModelMetadata& metadata, co
   record.rights = metadata.rights;
   record.licence = metadata.licence;
   record.more = metadata.more;
+  record.repairs = as.repairs;
   describe(record, file);
   return record;
 }
@@ -50,6 +52,14 @@ Expected<std::optional<ModelRecord>> find_earlier(Catalogue& catalogue, const Mo
   return catalogue.find_same(record);
 }
 
+// Stores the repairs of a new build of the same file. Leaves the stored repairs unchanged if
+// `repairs` is empty: the .pmesh file itself may have been published again, without its repairs.
+Expected<void> keep_repairs(Catalogue& catalogue, ModelRecord model, const std::string& repairs) {
+  if (repairs.empty() || repairs == model.repairs) return {};
+  model.repairs = repairs;
+  return catalogue.update(model, std::nullopt);
+}
+
 // Adds the model of the stored file to the catalogue.
 Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record, const StoredFile& stored,
                           const std::optional<JobClaim>& by) {
@@ -59,6 +69,11 @@ Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record, const
     // If the file was lost or damaged before, sets the model's state again. This changes the
     // revision, so that readers reopen the repaired file.
     const bool is_mended = stored.is_new || stored.is_repaired;
+    // The publication succeeds even if the repairs cannot be stored, for example because the model
+    // was changed meanwhile. Only kIo makes it fail.
+    if (auto kept = keep_repairs(catalogue, **same, record.repairs);
+        !kept && kept.error().code == ErrorCode::kIo)
+      return tl::unexpected(kept.error());
     const auto told =
         is_mended ? catalogue.set_state((*same)->id, (*same)->state) : Expected<void>{};
     if (!told) return tl::unexpected(told.error());
@@ -77,10 +92,11 @@ Expected<void> check_texts(const ModelMetadata& metadata) {
   if (auto good = check_paragraphs("rights statement", metadata.rights); !good) return good;
   if (auto good = check_text("licence", metadata.licence); !good) return good;
   for (const auto& [name, text] : metadata.more) {
-    const bool has_paragraphs = name == kDescription;
-    auto good =
-        has_paragraphs ? check_paragraphs(name.c_str(), text) : check_text(name.c_str(), text);
+    auto good = has_paragraphs(name) ? check_paragraphs(name.c_str(), text)
+                                     : check_text(name.c_str(), text);
     if (!good) return good;
+    if (const auto expected = expected_text(name, text))
+      return fail(ErrorCode::kBadInput, "the " + name + " is not " + *expected + "; correct it");
   }
   return {};
 }

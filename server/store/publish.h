@@ -18,11 +18,9 @@ struct ModelMetadata {
   std::map<std::string, std::string> more = {};  // see ModelRecord::more
 };
 
-// Name of the text in ModelMetadata::more that may have several paragraphs.
-inline constexpr std::string_view kDescription = "description";
-
-// Checks that the rights statement and the description are paragraphs of UTF-8, and each other text
-// a short line (see server/store/text.h). Fails with kBadInput.
+// Checks the texts. Rights, description and provenance may have several paragraphs; every other
+// text must be one short line (server/store/text.h). Each text must be a value that expected_text()
+// allows. Fails with kBadInput.
 Expected<void> check_texts(const ModelMetadata& metadata);
 
 struct PublishAs {
@@ -35,6 +33,7 @@ struct PublishAs {
   // removed afterwards.
   std::optional<UploadId> upload = std::nullopt;
   std::optional<JobClaim> by = std::nullopt;  // claim of the job that publishes
+  std::string repairs = {};                   // see ModelRecord::repairs; plain text
 };
 
 struct Publication {
@@ -45,9 +44,9 @@ struct Publication {
 // Publishes a .pmesh file. Stores the file, reads it back, and checks the header and the SHA-256 of
 // the base and of every chunk. Then adds the model to the catalogue in one transaction. A failure
 // leaves nothing in the store; a crash leaves at most an unreferenced object. If the same bytes are
-// already published with the same texts, returns that model and repairs its file if it is lost or
-// damaged. Fails with kBadInput if the file is damaged, and with kLimit if the disk is full or the
-// quota is exhausted.
+// already published with the same texts, returns that model, repairs its file if it is lost or
+// damaged, and stores `as.repairs` if they are not empty. Fails with kBadInput if the file is
+// damaged, and with kLimit if the disk is full or the quota is exhausted.
 Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as = {});

@@ -89,7 +89,8 @@ Sha256 geometry_hash(const Manifest& manifest) {
 }
 
 Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const ObjectStore& store,
-                                                                     ModelRecord record) {
+                                                                     ModelRecord record,
+                                                                     std::uint64_t damages) {
   auto file = store.open(record.file);
   if (!file && file.error().code == ErrorCode::kState)
     return damaged_file(record, "its file " + to_hex(record.file) + " is damaged");
@@ -102,6 +103,7 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const Objec
   model->manifest_ = std::move(*manifest);
   model->by_name_ = by_name(model->manifest_.chunks);
   model->file_ = std::move(*file);
+  model->damages_ = damages;
   return model;
 }
 
@@ -122,7 +124,7 @@ std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const 
 }
 
 std::size_t PublishedModels::HashOfScope::operator()(const Scope& scope) const noexcept {
-  // the last bytes of the ID, because its first bytes encode a time
+  // Uses the last bytes of the ID, because the first bytes encode a time.
   std::array<std::uint8_t, 8> random;
   std::copy(scope.id.bytes().begin() + 8, scope.id.bytes().end(), random.begin());
   return first_word(random) + (scope.is_whole ? 1 : 0);
@@ -155,8 +157,8 @@ bool PublishedModels::may_use_cache(Clock::time_point now) const {
   return known_ != Clock::time_point{} && now - known_ < kUnreachableFor;
 }
 
-// Drops changed models from the cache. While one caller waits for an unreachable catalogue, the
-// others use the cache.
+// Drops changed models from the cache. While one caller waits for an unreachable catalogue, other
+// callers use the cache.
 Expected<void> PublishedModels::forget_if_changed() {
   const auto now = Clock::now();
   {
@@ -221,15 +223,24 @@ Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
   return kept;
 }
 
-// Opens a model unless it is cached. If several callers request it at once, one opens it and the
-// others wait for the result.
+bool PublishedModels::is_outdated(const Opening& opening, Clock::time_point now) const {
+  return opening.revision != revision_ || opening.refreshed != refreshed_ ||
+         (opening.failed && now - *opening.failed >= staleness_);
+}
+
+// Opens a model unless it is cached. If several callers request it at once, one caller opens it and
+// the other callers wait for the result.
 Expected<PublishedModels::ModelPointer> PublishedModels::load(const Scope& scope) {
   std::shared_ptr<Opening> own, other;
   {
     const std::unique_lock lock(mutex_);
     if (const auto it = models_.find(scope); it != models_.end()) return it->second.model;
+    const auto now = Clock::now();
+    std::erase_if(openings_, [&](const auto& entry) {
+      return !entry.second || (entry.second->failed && is_outdated(*entry.second, now));
+    });
     auto& opening = openings_[scope];
-    if (opening && opening->revision == revision_ && opening->refreshed == refreshed_) {
+    if (opening && !is_outdated(*opening, now)) {
       other = opening;
     } else {
       own = opening = std::make_shared<Opening>(Opening{revision_, refreshed_});
@@ -237,14 +248,18 @@ Expected<PublishedModels::ModelPointer> PublishedModels::load(const Scope& scope
   }
   if (other) return other->result.get();
   misses.fetch_add(1, std::memory_order_relaxed);
+  bool has_failed = false;
   try {
-    own->promise.set_value(open(scope));
-  } catch (...) {  // for example std::bad_alloc; all waiting callers fail
+    auto model = open(scope);
+    has_failed = !model && model.error().code == ErrorCode::kIo;
+    own->promise.set_value(std::move(model));
+  } catch (...) {  // such as std::bad_alloc: the waiting callers fail, the next one tries again
     own->promise.set_exception(std::current_exception());
   }
   const std::unique_lock lock(mutex_);
+  if (has_failed) own->failed = Clock::now();
   const auto it = openings_.find(scope);
-  if (it != openings_.end() && it->second == own) openings_.erase(it);
+  if (!has_failed && it != openings_.end() && it->second == own) openings_.erase(it);
   return own->result.get();
 }
 
@@ -257,9 +272,9 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open(const Scope& scope
 }
 
 // Opens the newest version of a model. `revision` is the catalogue's revision before this call.
-// Returns null if the scope does not include the model. If the file is missing, the model may have
-// been replaced and its old file removed. Therefore looks up the record again, and fails only if
-// its version is still the same.
+// Returns null if the scope does not include the model. If the file is missing (kState), the model
+// may have been replaced and its old file removed. Therefore looks up the record again, and fails
+// only if its version is still the same.
 Expected<PublishedModels::ModelPointer> PublishedModels::open_newest(const Scope& scope,
                                                                      std::uint64_t revision) {
   for (std::optional<std::uint64_t> failed;;) {
@@ -270,10 +285,10 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open_newest(const Scope
     const std::uint64_t version = seen->version;
     const Sha256 file = seen->file;
     auto model = open_file(std::move(*seen), revision);
-    if (model) return model;
+    if (model || model.error().code != ErrorCode::kState) return model;
     if (failed == version) {
       const std::unique_lock lock(mutex_);
-      if (model.error().code == ErrorCode::kState) set_damaged(file, revision);
+      set_damaged(file, revision);
       return model;
     }
     failed = version;
@@ -287,13 +302,15 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open_file(ModelRecord r
                                                                    std::uint64_t revision) {
   const Sha256 file = record.file;
   bool was_damaged = false;  // whether the file was damaged at an earlier revision
+  std::uint64_t damages = 0;
   {
     const std::shared_lock lock(mutex_);
     if (is_known_damaged(file, revision))
       return damaged_file(record, "its file " + to_hex(file) + " is damaged or missing");
     was_damaged = damaged_.contains(file);
+    damages = count_of_damages(file);
   }
-  auto model = PublishedModel::open(store_, std::move(record));
+  auto model = PublishedModel::open(store_, std::move(record), damages);
   if (model && was_damaged) set_intact(file);
   return model;
 }
@@ -309,7 +326,28 @@ void PublishedModels::set_damaged(const Sha256& file) {
 }
 
 void PublishedModels::set_damaged(const Sha256& file, std::uint64_t revision) {
-  damaged_[file] = revision;
+  const bool is_new = damaged_.insert_or_assign(file, revision).second;
+  if (is_new) ++damages_of_[file], ++damages_;
+  withdraw(file);
+}
+
+void PublishedModels::drop_copies(const Sha256& file) {
+  const std::unique_lock lock(mutex_);
+  ++damages_of_[file], ++damages_;
+  withdraw(file);
+}
+
+std::uint64_t PublishedModels::damages_of(const Sha256& file) {
+  const std::shared_lock lock(mutex_);
+  return count_of_damages(file);
+}
+
+std::uint64_t PublishedModels::count_of_damages(const Sha256& file) const {
+  const auto found = damages_of_.find(file);
+  return found == damages_of_.end() ? 0 : found->second;
+}
+
+void PublishedModels::withdraw(const Sha256& file) {
   for (auto it = models_.begin(); it != models_.end();)
     it = it->second.model->record().file == file ? drop(it) : std::next(it);
 }
@@ -317,6 +355,14 @@ void PublishedModels::set_damaged(const Sha256& file, std::uint64_t revision) {
 void PublishedModels::set_intact(const Sha256& file) {
   const std::unique_lock lock(mutex_);
   damaged_.erase(file);
+}
+
+std::vector<PublishedModels::ModelPointer> PublishedModels::open_with(const Sha256& file) {
+  const std::shared_lock lock(mutex_);
+  std::vector<ModelPointer> open;
+  for (const auto& [scope, entry] : models_)
+    if (entry.model->record().file == file) open.push_back(entry.model);
+  return open;
 }
 
 std::vector<Sha256> PublishedModels::damaged() {
@@ -327,19 +373,37 @@ std::vector<Sha256> PublishedModels::damaged() {
   return files;
 }
 
+// Caches the model. Opening a model may take long. If the catalogue has changed meanwhile, caches
+// the model only if its version is still the same.
 void PublishedModels::remember(const Scope& scope, const ModelPointer& model,
                                std::uint64_t revision) {
+  while (!try_to_remember(scope, model, revision)) {
+    {
+      const std::shared_lock lock(mutex_);
+      revision = revision_;
+    }
+    const auto kept = unchanged({model});
+    if (!kept || kept->empty()) return;
+  }
+}
+
+// Returns false if `revision`, at which the model was current, is not the cache's revision.
+bool PublishedModels::try_to_remember(const Scope& scope, const ModelPointer& model,
+                                      std::uint64_t revision) {
   const std::uint64_t bytes = memory_of(model->manifest());
+  const Sha256& file = model->record().file;
   const std::unique_lock lock(mutex_);
-  if (revision != revision_) return;  // the model may have changed meanwhile
-  // In the meantime, another caller has found that the file is damaged.
-  if (is_known_damaged(model->record().file, revision)) return;
-  if (bytes > max_bytes_ || models_.contains(scope)) return;
+  if (revision != revision_) return false;
+  // Does not cache the model if another caller has found its file damaged in the meantime.
+  if (damaged_.contains(file) || count_of_damages(file) != model->damages()) return true;
+  if (bytes > max_bytes_) too_large_.insert(file);
+  if (bytes > max_bytes_ || models_.contains(scope)) return true;
   model->asked_ = Clock::now().time_since_epoch().count();
   models_[scope] = {model, bytes};
   bytes_ += bytes;
   if (!scope.is_whole) index_chunks(model);
   make_room();
+  return true;
 }
 
 void PublishedModels::index_chunks(const ModelPointer& model) {
@@ -385,6 +449,7 @@ void PublishedModels::make_room() {
 void PublishedModels::set_capacity(std::uint64_t max_bytes) {
   const std::unique_lock lock(mutex_);
   max_bytes_ = max_bytes;
+  too_large_.clear();
   make_room();
 }
 
@@ -413,10 +478,29 @@ Expected<PublishedModels::ModelPointer> PublishedModels::find(const Scope& scope
   return load(scope);
 }
 
-Expected<std::uint64_t> PublishedModels::revision() {
+Expected<ModelsRevision> PublishedModels::revision() {
   if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
   const std::shared_lock lock(mutex_);
-  return revision_;
+  return ModelsRevision{revision_, damages_};
+}
+
+std::optional<Sha256> PublishedModels::unopened(const ModelId& id, bool has_token) {
+  {
+    const std::shared_lock lock(mutex_);
+    const auto it = models_.find(Scope{.id = id});
+    const bool is_open =
+        it != models_.end() && !(has_token && it->second.model->record().public_part);
+    if (is_open || (has_token && models_.contains(Scope{.id = id, .is_whole = true})))
+      return std::nullopt;
+  }
+  auto record = catalogue_.find(id);
+  if (!record || !*record) return std::nullopt;
+  const auto seen = shown(std::move(**record), has_token);
+  if (!seen) return std::nullopt;
+  const std::shared_lock lock(mutex_);
+  const bool is_in_vain =
+      is_known_damaged(seen->file, revision_) || max_bytes_ == 0 || too_large_.contains(seen->file);
+  return is_in_vain ? std::nullopt : std::optional(seen->file);
 }
 
 void PublishedModels::refresh() {

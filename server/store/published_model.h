@@ -10,24 +10,20 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <set>
 #include <shared_mutex>
 #include <unordered_map>
 #include <vector>
 
 #include "codec/format/manifest.h"
 #include "server/catalogue/catalogue.h"
+#include "server/content/document.h"
 #include "server/store/object_store.h"
 
 namespace vitrine::server {
 
 struct ByteRange {
   std::uint64_t offset = 0, length = 0;
-};
-
-// A public JSON text that is kept in memory, with its entity tag and its compressed form.
-struct Document {
-  std::string text, etag;
-  std::vector<std::uint8_t> gzip;  // `text` as a gzip file; empty if it is not compressed
 };
 
 // Returns a hash of the base mesh and all chunks. Two files with the same hash decode to the same
@@ -38,10 +34,11 @@ Sha256 geometry_hash(const Manifest& manifest);
 // the shared pointer while bytes are being sent.
 class PublishedModel {
  public:
-  // Opens the file of `record`. Fails with kState if the object is missing or damaged, or does not
-  // match the record.
+  // Opens the file of `record`, which was found damaged `damages` times before. Fails with kState
+  // if the object is missing or damaged, or does not match the record.
   static Expected<std::shared_ptr<const PublishedModel>> open(const ObjectStore& store,
-                                                              ModelRecord record);
+                                                              ModelRecord record,
+                                                              std::uint64_t damages = 0);
 
   const ModelRecord& record() const { return record_; }
   const Manifest& manifest() const { return manifest_; }
@@ -59,6 +56,9 @@ class PublishedModel {
     return file_->read(range.offset, range.length);
   }
 
+  // How often this process has found the file damaged before it was repaired.
+  std::uint64_t damages() const { return damages_; }
+
   // Returns the manifest as JSON for the API, or null if PublishedModels::keep_manifest() has not
   // been called yet. Thread-safe.
   std::shared_ptr<const Document> kept_manifest() const { return std::atomic_load(&told_); }
@@ -71,8 +71,16 @@ class PublishedModel {
   Manifest manifest_;
   std::vector<std::uint32_t> by_name_;  // indices of the chunks, sorted by SHA-256
   std::unique_ptr<Object> file_;
+  std::uint64_t damages_ = 0;
   mutable std::shared_ptr<const Document> told_;
   mutable std::atomic<std::chrono::steady_clock::rep> asked_{0};  // time of the last request
+};
+
+// Changes whenever PublishedModels::find() may return another model or error than before: the
+// catalogue's revision, and how often an intact file was found damaged.
+struct ModelsRevision {
+  std::uint64_t catalogue = 0, damages = 0;
+  bool operator==(const ModelsRevision&) const = default;
 };
 
 struct PublishedChunk {
@@ -81,10 +89,12 @@ struct PublishedChunk {
 };
 
 // A cache of the models of an installation. The first request for a model opens the model;
-// concurrent requests wait for it. Keeps manifests and their JSON in at most `max_bytes` of memory,
-// and drops the least recently used models first. Thread-safe. Finds a model as soon as another
-// process has published it. Notices changes by other processes to cached models within `staleness`.
-// While the catalogue is unreachable, serves cached models for up to 15 minutes.
+// concurrent requests wait for it. If the catalogue or the store cannot be read, requests within
+// `staleness` after it fail, too, without another attempt. Keeps manifests and their JSON in at
+// most `max_bytes` of memory, and drops the least recently used models first. Thread-safe. Finds a
+// model as soon as another process has published it. Notices changes by other processes to cached
+// models within `staleness`. While the catalogue is unreachable, serves cached models for up to 15
+// minutes.
 class PublishedModels {
  public:
   PublishedModels(const ObjectStore& store, Catalogue& catalogue,
@@ -108,13 +118,19 @@ class PublishedModels {
   // callers with a token.
   Expected<std::shared_ptr<const PublishedModel>> find_whole(const ModelId& id);
 
+  // Returns the file that find() must open first, or find_whole() if `has_token` is true. Returns
+  // nullopt if the model is open. Also returns nullopt if opening it would be useless: the file is
+  // known to be damaged, or the cache cannot hold the model. Reads the catalogue if the model is
+  // not open.
+  std::optional<Sha256> unopened(const ModelId& id, bool has_token);
+
   // Makes the next call check the catalogue. Call this after this process has changed the
   // catalogue.
   void refresh();
 
-  // Returns Catalogue::revision(), at most `staleness` old. While it stays the same, find() and
-  // find_whole() return the same models. Fails as find() does.
-  Expected<std::uint64_t> revision();
+  // Returns the revision, at most `staleness` old. While it stays the same, find() and find_whole()
+  // return the same models. Fails as find() does.
+  Expected<ModelsRevision> revision();
 
   // Keeps the JSON of the model's manifest as long as the model is cached, if the memory suffices.
   void keep_manifest(const std::shared_ptr<const PublishedModel>& model,
@@ -134,6 +150,12 @@ class PublishedModels {
   // catalogue.
   void set_damaged(const Sha256& file);
   void set_intact(const Sha256& file);
+  // Reports that a local copy of an intact file is damaged. The next request opens the file again.
+  void drop_copies(const Sha256& file);
+  // How often the file was reported damaged. A model with fewer damages() is outdated.
+  std::uint64_t damages_of(const Sha256& file);
+  // Returns the cached models that have this file open. Each may have a local copy of its own.
+  std::vector<std::shared_ptr<const PublishedModel>> open_with(const Sha256& file);
   std::vector<Sha256> damaged();  // the files that are known to be damaged or missing
 
   // The number of requests answered from the cache, and the number of models opened.
@@ -159,16 +181,20 @@ class PublishedModels {
     std::uint64_t bytes = 0;
   };
   using CachedModels = std::unordered_map<Scope, CachedModel, HashOfScope>;
-  // A model that is being opened. Its result is outdated for a caller that knows of a later
-  // revision or refresh().
+  // A model that is being opened, or that could not be opened. Its result is outdated for a caller
+  // that knows of a later revision or refresh().
   struct Opening {
     std::uint64_t revision, refreshed;
+    std::optional<Clock::time_point> failed = {};  // set once it has failed
     std::promise<Expected<ModelPointer>> promise = {};
     std::shared_future<Expected<ModelPointer>> result = promise.get_future().share();
   };
 
   bool is_fresh(Clock::time_point now, Clock::duration age) const;  // the caller holds the lock
   bool may_show(Clock::time_point now);                             // the caller holds the lock
+  // Whether the result is outdated, or the opening failed `staleness_` ago. The caller holds the
+  // lock.
+  bool is_outdated(const Opening& opening, Clock::time_point now) const;
   void count_hit(const PublishedModel& model, Clock::time_point now);
   bool may_use_cache(Clock::time_point now) const;  // the caller holds the lock
   Expected<void> forget_if_changed();
@@ -183,7 +209,10 @@ class PublishedModels {
   void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
   // Whether the file was damaged at this revision. The caller holds the lock.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
+  std::uint64_t count_of_damages(const Sha256& file) const;  // the caller holds the lock
+  void withdraw(const Sha256& file);                         // the caller holds the lock
   void remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
+  bool try_to_remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
   void index_chunks(const ModelPointer& model);               // the caller holds the lock
   CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds the lock
   void make_room();                                           // the caller holds the lock
@@ -204,12 +233,16 @@ class PublishedModels {
   std::uint64_t max_bytes_;
   std::uint64_t bytes_ = 0;
   CachedModels models_;
-  // Blocks of the cached public parts. A block that several models have occurs once for each.
+  // Blocks of the cached public parts. A block that several models have occurs several times.
   std::unordered_multimap<Sha256, PublishedChunk, HashOfHash> chunks_;
   std::unordered_map<Scope, std::shared_ptr<Opening>, HashOfScope> openings_;
   // Files that are damaged or missing, each with the revision at which the fault was last found.
   // While the revision stays the same, requests do not read the file again.
   std::map<Sha256, std::uint64_t> damaged_;
+  std::set<Sha256> too_large_;  // files of models that need more than max_bytes_
+  // For each file: how often it was found damaged after it had been intact. damages_ is the sum.
+  std::map<Sha256, std::uint64_t> damages_of_;
+  std::uint64_t damages_ = 0;
 };
 
 }  // namespace vitrine::server

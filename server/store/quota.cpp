@@ -29,28 +29,40 @@ std::uint64_t sum(const Sizes& sizes) {
   return all;
 }
 
-std::filesystem::path quota_file(const std::filesystem::path& folder) {
-  return folder / "quota";
+constexpr const char* kQuotaFile = "quota";
+constexpr const char* kReserveFile = "disk-reserve";
+
+// Returns 0 if there is no such file.
+Expected<std::uint64_t> read_number(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return 0;
+  std::uint64_t number = 0;
+  if (std::ifstream(path) >> number) return number;
+  return fail(ErrorCode::kIo, fmt::format("cannot read {}; check the file, or start vitrined, "
+                                          "which writes it",
+                                          path.string()));
+}
+
+Expected<void> write_number(const std::filesystem::path& path, std::uint64_t number) {
+  if (const auto before = read_number(path); before && *before == number) return {};
+  const std::string text = std::to_string(number) + "\n";
+  return write_file_atomically(path,
+                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace
 
-Expected<void> write_quota(const std::filesystem::path& folder, std::uint64_t bytes) {
-  if (const auto before = read_quota(folder); before && *before == bytes) return {};
-  const std::string text = std::to_string(bytes) + "\n";
-  return write_file_atomically(quota_file(folder),
-                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+Expected<void> write_limits(const std::filesystem::path& folder, const DiskLimits& limits) {
+  if (auto written = write_number(folder / kQuotaFile, limits.quota); !written) return written;
+  return write_number(folder / kReserveFile, limits.reserve);
 }
 
-Expected<std::uint64_t> read_quota(const std::filesystem::path& folder) {
-  const std::filesystem::path path = quota_file(folder);
-  std::error_code error;
-  if (!std::filesystem::exists(path, error) && !error) return 0;
-  std::uint64_t bytes = 0;
-  if (std::ifstream(path) >> bytes) return bytes;
-  return fail(ErrorCode::kIo, fmt::format("cannot read {}; check the file, or start vitrined, "
-                                          "which writes it",
-                                          path.string()));
+Expected<DiskLimits> read_limits(const std::filesystem::path& folder) {
+  const auto quota = read_number(folder / kQuotaFile);
+  if (!quota) return tl::unexpected(quota.error());
+  const auto reserve = read_number(folder / kReserveFile);
+  if (!reserve) return tl::unexpected(reserve.error());
+  return DiskLimits{*quota, *reserve};
 }
 
 Expected<std::uint64_t> Quota::announced(const std::optional<UploadId>& spent) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits the disk space that models and uploads may use together.
+// Limits the disk space that models and uploads may use together. Also states the limits on disk
+// space to programs that publish without the daemon.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +15,16 @@
 
 namespace vitrine::server {
 
-// Write and read the limit in bytes in a file of the data folder, so that programs that publish
-// without the daemon know the limit, too. 0 means no limit. Both functions fail with kIo.
-Expected<void> write_quota(const std::filesystem::path& folder, std::uint64_t bytes);
-Expected<std::uint64_t> read_quota(const std::filesystem::path& folder);
+// The daemon's limits on disk space, in bytes.
+struct DiskLimits {
+  std::uint64_t quota = 0;    // largest total size of all models and uploads; 0: no limit
+  std::uint64_t reserve = 0;  // free space to keep on the disk
+};
+
+// These functions write and read the limits in files of the data folder, so that programs that
+// publish without the daemon also know them. Both fail with kIo.
+Expected<void> write_limits(const std::filesystem::path& folder, const DiskLimits& limits);
+Expected<DiskLimits> read_limits(const std::filesystem::path& folder);
 
 // The limit on the disk space of an installation. Thread-safe. Functions fail with kLimit if there
 // is not enough space, and with kIo if the catalogue or the disk fails.

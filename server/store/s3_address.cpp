@@ -4,19 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "server/content/percent_encoding.h"
 #include "server/remote/remote_server.h"
 
 namespace vitrine::server {
 namespace {
 
 constexpr std::string_view kScheme = "s3://";
-
-bool is_unreserved(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-         std::string_view("-._~").find(c) != std::string_view::npos;
-}
 
 Unexpected wrong(std::string_view text, std::string_view why) {
   return fail(ErrorCode::kBadInput,
@@ -79,18 +74,6 @@ std::string S3Address::url_of(std::string_view key, std::string_view query) cons
   if (!key.empty()) url += fmt::format("{}{}{}", is_virtual ? "" : "/", prefix, key);
   if (!query.empty()) url += fmt::format("?{}", query);
   return url;
-}
-
-std::string percent_encoded(std::string_view text) {
-  std::string encoded;
-  for (const char c : text) {
-    if (is_unreserved(c)) {
-      encoded += c;
-    } else {
-      encoded += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-  }
-  return encoded;
 }
 
 }  // namespace vitrine::server

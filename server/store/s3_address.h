@@ -27,7 +27,4 @@ struct S3Address {
   std::string url_of(std::string_view key, std::string_view query = {}) const;
 };
 
-// Returns the text with all bytes except letters, digits and "-._~" replaced by %XX.
-std::string percent_encoded(std::string_view text);
-
 }  // namespace vitrine::server

@@ -15,8 +15,8 @@ pugi::xml_node root_of(pugi::xml_document& document, std::string_view xml, const
   return document.child(name);
 }
 
-// Stands for the time of an entry without a valid time. It lies in the future, so that such an
-// entry never counts as old enough to be removed.
+// The time of an entry without a valid time. It is in the far future, so that the entry never
+// counts as old enough to be removed.
 constexpr std::int64_t kNever = INT64_MAX / 2;
 
 // Converts a time such as "2026-11-24T17:44:47.896Z" to seconds since 1970.

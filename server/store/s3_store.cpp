@@ -8,6 +8,7 @@
 
 #include "codec/core/parse_number.h"
 #include "server/catalogue/id.h"
+#include "server/content/percent_encoding.h"
 #include "server/store/local_copy.h"
 #include "server/store/s3_answers.h"
 #include "server/store/s3_upload.h"
@@ -133,8 +134,8 @@ Expected<void> S3Store::give_up_uploads(std::int64_t begun_before) {
   return {};
 }
 
-// Lists the grace marks after the objects, so that it sees the marks set while the objects were
-// listed.
+// Lists the grace marks after the objects. Marks that are set while the objects are being listed
+// are therefore seen, too.
 Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                      const ExclusiveLock& lock) {
   const auto objects = list(kObjects);

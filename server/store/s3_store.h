@@ -40,6 +40,7 @@ class S3Store final : public ObjectStore {
                               const ExclusiveLock& lock) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
   Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const override;
+  bool keeps_copies() const override { return true; }
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
 
  private:

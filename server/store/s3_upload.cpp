@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "server/content/percent_encoding.h"
 #include "server/store/s3_answers.h"
 
 namespace vitrine::server {
@@ -42,7 +43,7 @@ Expected<std::string> put_part(S3Client& client, const std::string& key, const s
 
 // Completes a multipart upload. The response may have status 200 and contain an error, because the
 // store keeps the connection alive while it works. If the response to a successful attempt is lost,
-// the next attempt finds no upload.
+// the next attempt finds no upload. Therefore checks whether the object exists.
 Expected<void> complete(S3Client& client, const std::string& key, const std::string& upload,
                         const std::string& parts) {
   const std::string text =

@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+
+#include "codec/core/bounded_lines.h"
+#include "codec/core/printable.h"
 
 namespace vitrine::server {
 namespace {
@@ -13,19 +17,11 @@ namespace {
 // malformed or not allowed.
 std::size_t character_length(std::string_view text) noexcept {
   const auto lead = static_cast<std::uint8_t>(text[0]);
-  if (lead < 0x80) return lead >= 0x20 && lead != 0x7F ? 1 : 0;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC0 || lead > 0xF7 || text.size() < length) return 0;
-  std::uint32_t code = lead & (0x7Fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto byte = static_cast<std::uint8_t>(text[i]);
-    if ((byte & 0xC0) != 0x80) return 0;
-    code = code << 6 | (byte & 0x3F);
-  }
-  // The smallest allowed code point for each length. U+0080 to U+009F are control characters.
-  constexpr std::uint32_t kSmallest[] = {0, 0, 0xA0, 0x800, 0x10000};
-  const bool is_surrogate = code >= 0xD800 && code < 0xE000;
-  return code < kSmallest[length] || code > 0x10FFFF || is_surrogate ? 0 : length;
+  if (lead < 0x20 || lead == 0x7F) return 0;
+  const std::size_t size = utf8_size(text);
+  // U+0080 to U+009F are control characters, too.
+  const bool is_control = size == 2 && lead == 0xC2 && static_cast<std::uint8_t>(text[1]) < 0xA0;
+  return is_control ? 0 : size;
 }
 
 }  // namespace
@@ -62,6 +58,23 @@ bool is_paragraphs(std::string_view text) noexcept {
   for (std::size_t end = 0; (end = text.find('\n')) != text.npos; text.remove_prefix(end + 1))
     if (!is_plain_text(text.substr(0, end))) return false;
   return is_plain_text(text);
+}
+
+std::string joined_lines(std::span<const std::string> lines) {
+  std::vector<std::string> plain;
+  for (const std::string& line : lines)
+    plain.push_back(as_plain_text(line));
+  return bounded_lines(plain, kMaxParagraphBytes);
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t length = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, length));
+    text.remove_prefix(std::min(length + 1, text.size()));
+  }
+  return lines;
 }
 
 }  // namespace vitrine::server

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vitrine::server {
 
@@ -23,5 +25,11 @@ inline constexpr std::size_t kMaxLineBytes = 4096, kMaxParagraphBytes = 16'384;
 bool is_line(std::string_view text) noexcept;
 // Whether `text` is plain text, apart from line feeds, and has at most kMaxParagraphBytes.
 bool is_paragraphs(std::string_view text) noexcept;
+
+// Returns the lines as one text, for which is_paragraphs() is true. Makes each line plain text. If
+// not all lines fit, the last line says how many are missing.
+std::string joined_lines(std::span<const std::string> lines);
+// Returns the lines of `text`. An empty text has no lines.
+std::vector<std::string> lines_of(std::string_view text);
 
 }  // namespace vitrine::server

@@ -38,15 +38,15 @@ tl::unexpected<UploadFault> gone() {
 
 class ScopedLock {
  public:
-  explicit ScopedLock(int fd) : fd_(fd), held_(lock_file(fd)) {}
+  explicit ScopedLock(int fd) : fd_(fd), is_held_(lock_file(fd)) {}
   ~ScopedLock() { ::flock(fd_, LOCK_UN); }
   ScopedLock(const ScopedLock&) = delete;
   ScopedLock& operator=(const ScopedLock&) = delete;
-  bool is_held() const { return held_; }
+  bool is_held() const { return is_held_; }
 
  private:
   const int fd_;
-  const bool held_;
+  const bool is_held_;
 };
 
 std::optional<std::uint64_t> size_of(int fd) {

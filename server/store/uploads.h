@@ -92,8 +92,8 @@ class Uploads {
   // smaller than the offset, and with kMoved if another length is known already.
   Uploading<void> state_length(const UploadId& id, std::uint64_t length);
 
-  // Returns an upload whose bytes before the offset are on the disk. Fails with kGone if it does
-  // not exist.
+  // Returns an upload, after making sure that the bytes before its offset are on the disk. Fails
+  // with kGone if the upload does not exist.
   Uploading<Upload> find(const UploadId& id) const;
   // Returns a writer that appends at `offset`. Fails with kGone if the upload does not exist, and
   // with kMoved if the upload's offset is a different one.

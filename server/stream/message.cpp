@@ -187,7 +187,7 @@ OrderedJson about(const char* type, std::uint16_t model) {
 OrderedJson json_of(const OpenMessage& message) {
   OrderedJson json = about("open", message.model);
   json["id"] = message.id;
-  json["head"] = message.head;
+  json["head"] = message.wants_head;
   return json;
 }
 OrderedJson json_of(const CloseMessage& message) {
@@ -207,7 +207,7 @@ OrderedJson json_of(const HaveMessage& message) {
   return json;
 }
 OrderedJson json_of(const PauseMessage& message) {
-  return about(message.pause ? "pause" : "resume", message.model);
+  return about(message.is_pause ? "pause" : "resume", message.model);
 }
 OrderedJson json_of(const AckMessage& message) {
   return {{"type", "ack"}, {"bytes", message.bytes}};

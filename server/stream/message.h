@@ -36,7 +36,7 @@ struct ChunkRange {
 struct OpenMessage {
   std::uint16_t model = 0;
   std::string id;  // the model's ID, as in URLs; the parser checks only its length
-  bool head = false;
+  bool wants_head = false;
 };
 struct CloseMessage {
   std::uint16_t model = 0;
@@ -53,7 +53,7 @@ struct HaveMessage {
 };
 struct PauseMessage {
   std::uint16_t model = 0;
-  bool pause = true;  // true to pause, false to resume
+  bool is_pause = true;  // true to pause, false to resume
 };
 struct AckMessage {
   std::uint64_t bytes = 0;  // 1..kMaxAck

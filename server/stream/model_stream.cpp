@@ -40,12 +40,12 @@ void ModelStream::want(const WantMessage& message, Pacer::Time now) {
   }
 }
 
-void ModelStream::pause(bool pause) {
+void ModelStream::set_paused(bool is_paused) {
   interrupt();
-  is_paused_ = pause;
+  is_paused_ = is_paused;
 }
 
-// Remembers how much of the current chunk has been sent, so that only the rest is sent later.
+// Remembers how much of the current chunk has been sent. Only the remaining bytes are sent later.
 void ModelStream::interrupt() {
   if (is_within_chunk()) interrupted_.push_back(*under_way_);
   under_way_.reset();
@@ -66,7 +66,7 @@ Expected<void> ModelStream::have(const std::vector<ChunkRange>& chunks) {
 std::uint64_t ModelStream::left_of(std::size_t chunk) const {
   const std::uint64_t length = manifest_->chunks[chunk].length;
   if (under_way_ && under_way_->chunk == chunk) return length - under_way_->offset;
-  const auto part = std::ranges::find(interrupted_, chunk, &Part::chunk);
+  const auto part = std::ranges::find(interrupted_, chunk, &StartedChunk::chunk);
   return part == interrupted_.end() ? length : length - part->offset;
 }
 
@@ -89,8 +89,8 @@ bool ModelStream::choose(const Share& share, Pacer::Time now) {
     if (!is_in_time({share.seconds(0, rate), share.seconds(left_of(*chunk), rate)}, now))
       return false;
   }
-  under_way_ = Part{*chunk, manifest_->chunks[*chunk].length - left_of(*chunk)};
-  std::erase_if(interrupted_, [&](const Part& part) { return part.chunk == *chunk; });
+  under_way_ = StartedChunk{*chunk, manifest_->chunks[*chunk].length - left_of(*chunk)};
+  std::erase_if(interrupted_, [&](const StartedChunk& part) { return part.chunk == *chunk; });
   return true;
 }
 
@@ -99,7 +99,7 @@ StreamOutput ModelStream::next(std::uint32_t most, const Share& share, Pacer::Ti
   if (is_open_ && timed_) {
     if (auto promise = news(share, now)) return *promise;
   }
-  if (head_) return head_slice(most);
+  if (sends_head_) return head_slice(most);
   if (!is_open_) return {};
   if (!under_way_ && !choose(share, now)) {
     // If the link is full or stalled, it may recover in time, so the request stays open.
@@ -119,7 +119,7 @@ StreamOutput ModelStream::head_slice(std::uint32_t most) {
                            .total = static_cast<std::uint32_t>(total)};
   const Slice slice{header, head_sent_, length};
   head_sent_ += length;
-  head_ = head_sent_ < total;
+  sends_head_ = head_sent_ < total;
   return slice;
 }
 
@@ -153,10 +153,10 @@ std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time 
   if (last) {
     const double rate = share.pacer.rate(now) / static_cast<double>(share.sharers);
     const double change = std::abs(rate / last->bytes_per_second - 1);
-    const bool first_measured = !last->measured && share.pacer.is_measured();
+    const bool is_first_measured = !last->is_measured && share.pacer.is_measured();
     const bool is_settled =
         now - timed_->promised >= kBetweenPromises && !share.pacer.is_falling(now);
-    if (!first_measured && (change < kNews || !is_settled)) return {};
+    if (!is_first_measured && (change < kNews || !is_settled)) return {};
   }
   PromiseMessage promise = forecast(share, now);
   timed_->promised = now;
@@ -168,13 +168,13 @@ std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time 
 // late.
 PromiseMessage ModelStream::forecast(const Share& share, Pacer::Time now) const {
   const double rate = share.pacer.rate(now), left = (timed_->deadline - now).count();
-  std::uint64_t bytes = head_ ? manifest_->head_bytes() - head_sent_ : 0;
+  std::uint64_t bytes = sends_head_ ? manifest_->head_bytes() - head_sent_ : 0;
   Planner then = *planner_;
   auto chunk = under_way_ ? std::optional(under_way_->chunk) : then.next();
   for (; chunk; chunk = then.next()) {
     const std::uint64_t with = bytes + left_of(*chunk);
-    const bool goes_on = under_way_ && under_way_->chunk == *chunk;
-    if (!goes_on && share.seconds(with, rate) > kCareful * left) break;
+    const bool is_under_way = under_way_ && under_way_->chunk == *chunk;
+    if (!is_under_way && share.seconds(with, rate) > kCareful * left) break;
     then.have(*chunk);
     bytes = with;
   }
@@ -188,7 +188,7 @@ PromiseMessage ModelStream::forecast(const Share& share, Pacer::Time now) const 
           .error = manifest_->levels[missing - 1].max_error,
           .seconds = share.seconds(bytes, rate),
           .bytes_per_second = rate / static_cast<double>(share.sharers),
-          .measured = share.pacer.is_measured()};
+          .is_measured = share.pacer.is_measured()};
 }
 
 }  // namespace vitrine::server

@@ -18,8 +18,8 @@ namespace vitrine::server {
 
 using StreamOutput = std::variant<std::monostate, Slice, PromiseMessage, DoneMessage>;
 
-// The connection from the viewpoint of one model. All models that have something to send get equal
-// shares.
+// The connection's pacer, and the number of models that share the connection. All models that have
+// something to send get equal shares.
 struct Share {
   const Pacer& pacer;
   std::size_t sharers = 1;  // number of models that have something to send, including this one
@@ -36,28 +36,28 @@ struct Share {
 class ModelStream {
  public:
   // The manifest must outlive this object. Before the first detail request, sends only the model's
-  // head (Manifest::head_bytes()), and only if `head` is true.
-  ModelStream(std::uint16_t number, const Manifest& manifest, bool head)
-      : number_(number), manifest_(&manifest), head_(head) {}
+  // head (Manifest::head_bytes()), and only if `sends_head` is true.
+  ModelStream(std::uint16_t number, const Manifest& manifest, bool sends_head)
+      : number_(number), manifest_(&manifest), sends_head_(sends_head) {}
 
   std::uint16_t number() const { return number_; }
 
   void want(const WantMessage& message, Pacer::Time now);
   // Marks chunks as held by the client. Fails with kBadInput if the model has no such chunk.
   Expected<void> have(const std::vector<ChunkRange>& chunks);
-  void pause(bool pause);
+  void set_paused(bool is_paused);
 
   // Returns the next slice of at most `most` bytes, or a message. If `most` is 0, returns no slice.
   // Returns std::monostate if there is nothing to send now.
   StreamOutput next(std::uint32_t most, const Share& share, Pacer::Time now);
 
   // Whether next() may return slices.
-  bool is_sending() const { return (head_ || is_open_) && !is_paused_; }
+  bool is_sending() const { return (sends_head_ || is_open_) && !is_paused_; }
   // Whether a `seconds` request is open, so that next() may return a new promise as time passes.
   bool is_timed() const { return is_open_ && timed_.has_value() && !is_paused_; }
 
  private:
-  struct Part {
+  struct StartedChunk {
     std::size_t chunk;
     std::uint64_t offset;  // number of bytes already sent
   };
@@ -67,7 +67,7 @@ class ModelStream {
     std::optional<PromiseMessage> promise;  // the last promise sent
     Pacer::Time promised{};
   };
-  // Seconds until all bytes in flight have arrived: without one more chunk, and with it.
+  // Seconds until all bytes in flight have arrived, without and with the next chunk.
   struct Ends {
     double without, with;
   };
@@ -85,17 +85,17 @@ class ModelStream {
 
   std::uint16_t number_;
   const Manifest* manifest_;
-  bool head_;  // true while the head, or the rest of it, is still to be sent
+  bool sends_head_;  // true until the model's whole head has been sent
   std::uint64_t head_sent_ = 0;
   std::optional<Planner> planner_;  // created with the first detail request
-  std::uint32_t turn_ = 0;          // `turn` of the detail request
+  std::uint32_t turn_ = 0;          // number of the detail request, chosen by the client
   bool is_open_ = false;            // true until the request has been answered with `done`
   bool is_paused_ = false;
-  std::optional<Timed> timed_;     // set if the request is for `seconds`
-  std::optional<Part> under_way_;  // the chunk being sent
+  std::optional<Timed> timed_;             // set if the request is for `seconds`
+  std::optional<StartedChunk> under_way_;  // the chunk being sent
   // Chunks whose sending was interrupted by new requests. Only the remaining bytes of each are sent
   // later.
-  std::vector<Part> interrupted_;
+  std::vector<StartedChunk> interrupted_;
 };
 
 }  // namespace vitrine::server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Congestion control for one connection: measures its rate and limits the bytes in flight. Keeps so
-// many bytes in flight that they fill the link and a short queue. This keeps the link busy but
-// delays a new request only briefly. The rate is measured end to end, from the client's
+// Congestion control for one connection: measures its rate and limits the bytes in flight. Keeps
+// enough bytes in flight to fill the link and a short queue. The link is thus always busy, but a
+// new request is delayed only briefly. The rate is measured end to end, from the client's
 // acknowledgements, so that buffers of proxies do not distort it. Connections that compete for the
 // same link or processor converge to equal shares. Does no I/O and reads no clock: the caller
 // passes the time.
@@ -75,9 +75,10 @@ class Pacer {
   static constexpr double kFirstWindow = 16 * 1024;
   static constexpr double kLeastWindow = 4 * 1024;
   static constexpr double kMostWindow = 16 << 20;
-  // Limit on the bytes in flight of all connections together, apart from those that each
-  // connection's own delay and queue require. A connection whose own delay is unknown has the
-  // larger limit kUnknownShared, so that distant clients behind a proxy are not slowed down.
+  // Number of bytes that all connections together may have in flight, in addition to the bytes that
+  // each connection's own delay and queue require. If a connection's own delay is unknown, the
+  // larger limit kUnknownShared applies, so that distant clients behind a proxy are not slowed
+  // down.
   static constexpr double kShared = 256 * 1024, kUnknownShared = 8 << 20;
 
   struct Mark {

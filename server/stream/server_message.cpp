@@ -13,13 +13,15 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr int kMaxNesting = 2;
 
 OrderedJson json_of(const ModelMessage& message) {
-  return {{"type", "model"},
-          {"model", message.model},
-          {"sha256", message.sha256},
-          {"chunks", message.chunks},
-          {"head_bytes", message.head_bytes},
-          {"slice_bytes", message.slice_bytes},
-          {"credit", message.credit}};
+  OrderedJson json = {{"type", "model"},
+                      {"model", message.model},
+                      {"sha256", message.sha256},
+                      {"chunks", message.chunks},
+                      {"head_bytes", message.head_bytes},
+                      {"slice_bytes", message.slice_bytes},
+                      {"credit", message.credit}};
+  if (!message.presentation.empty()) json["presentation"] = message.presentation;
+  return json;
 }
 OrderedJson json_of(const PromiseMessage& message) {
   return {{"type", "promise"},
@@ -31,7 +33,7 @@ OrderedJson json_of(const PromiseMessage& message) {
           {"error", message.error},
           {"seconds", message.seconds},
           {"bytes_per_second", message.bytes_per_second},
-          {"measured", message.measured}};
+          {"measured", message.is_measured}};
 }
 OrderedJson json_of(const DoneMessage& message) {
   return {{"type", "done"},
@@ -52,32 +54,37 @@ class Members {
   template <class Count>
   void count(const char* name, Count& out) {
     const auto member = json_.find(name);
-    complete_ = complete_ && member != json_.end() && member->is_number_unsigned() &&
-                member->get<std::uint64_t>() <= std::numeric_limits<Count>::max();
-    if (complete_) out = static_cast<Count>(member->get<std::uint64_t>());
+    is_complete_ = is_complete_ && member != json_.end() && member->is_number_unsigned() &&
+                   member->get<std::uint64_t>() <= std::numeric_limits<Count>::max();
+    if (is_complete_) out = static_cast<Count>(member->get<std::uint64_t>());
   }
   void number(const char* name, double& out) {
     const auto member = json_.find(name);
-    complete_ = complete_ && member != json_.end() && member->is_number() &&
-                std::isfinite(member->get<double>());
-    if (complete_) out = member->get<double>();
+    is_complete_ = is_complete_ && member != json_.end() && member->is_number() &&
+                   std::isfinite(member->get<double>());
+    if (is_complete_) out = member->get<double>();
   }
   template <class Value>
   void value(const char* name, Json::value_t type, Value& out) {
     const auto member = json_.find(name);
-    complete_ = complete_ && member != json_.end() && member->type() == type;
-    if (complete_) out = member->get<Value>();
+    is_complete_ = is_complete_ && member != json_.end() && member->type() == type;
+    if (is_complete_) out = member->get<Value>();
+  }
+
+  // Reads a text that servers of older versions do not send.
+  void optional_text(const char* name, std::string& out) {
+    if (json_.contains(name)) value(name, Json::value_t::string, out);
   }
 
   template <class Message>
   Expected<ServerMessage> message(Message message) const {
-    if (complete_) return message;
+    if (is_complete_) return message;
     return fail(ErrorCode::kBadInput, "a message of the server lacks a member");
   }
 
  private:
   const Json& json_;
-  bool complete_ = true;
+  bool is_complete_ = true;
 };
 
 Expected<ServerMessage> parse_model(Members members) {
@@ -88,6 +95,7 @@ Expected<ServerMessage> parse_model(Members members) {
   members.count("head_bytes", message.head_bytes);
   members.count("slice_bytes", message.slice_bytes);
   members.count("credit", message.credit);
+  members.optional_text("presentation", message.presentation);
   return members.message(std::move(message));
 }
 
@@ -101,7 +109,7 @@ Expected<ServerMessage> parse_promise(Members members) {
   members.number("error", message.error);
   members.number("seconds", message.seconds);
   members.number("bytes_per_second", message.bytes_per_second);
-  members.value("measured", Json::value_t::boolean, message.measured);
+  members.value("measured", Json::value_t::boolean, message.is_measured);
   return members.message(message);
 }
 

@@ -12,7 +12,7 @@
 
 namespace vitrine::server {
 
-// States that a model is open under this number, and describes the model.
+// States that a model is open under the number `model`, and describes this model.
 struct ModelMessage {
   std::uint16_t model = 0;
   std::string sha256;  // SHA-256 of the model's file, 64 hexadecimal digits
@@ -20,6 +20,7 @@ struct ModelMessage {
   std::uint64_t head_bytes = 0;
   std::uint64_t slice_bytes = 0;  // largest payload of a slice, in bytes
   std::uint64_t credit = 0;       // remaining credit of the connection
+  std::string presentation = {};  // as JSON; empty if the model is presented as its file is
   bool operator==(const ModelMessage&) const = default;
 };
 
@@ -27,14 +28,14 @@ struct ModelMessage {
 // Replaces the last promise.
 struct PromiseMessage {
   std::uint16_t model = 0;
-  std::uint32_t turn = 0;       // `turn` of the request
+  std::uint32_t turn = 0;       // number of the request, chosen by the client
   std::uint32_t level = 0;      // the finest level that the client will hold completely
-  std::uint64_t bytes = 0;      // bytes that the client will hold, including the head
+  std::uint64_t bytes = 0;      // bytes that the client will hold, including the model's head
   std::uint64_t triangles = 0;  // triangles that the client will hold
   double error = 0;             // maximum error of `level`, in model units
-  double seconds = 0;           // seconds until these data have arrived
+  double seconds = 0;           // seconds until the promised data have arrived
   double bytes_per_second = 0;  // rate at which the model's bytes arrive
-  bool measured = false;        // false if bytes_per_second is a guess before the first measurement
+  bool is_measured = false;     // false if bytes_per_second is a guess before the first measurement
   bool operator==(const PromiseMessage&) const = default;
 };
 
@@ -42,12 +43,12 @@ struct PromiseMessage {
 // earlier frames have arrived.
 struct DoneMessage {
   std::uint16_t model = 0;
-  std::uint32_t turn = 0;  // `turn` of the request
+  std::uint32_t turn = 0;  // number of the request, chosen by the client
   std::uint64_t bytes = 0, triangles = 0;
   bool operator==(const DoneMessage&) const = default;
 };
 
-// States that no model is open under this number, since it was closed or could not be opened.
+// States that no model is open under the number `model`: it was closed or could not be opened.
 struct ClosedMessage {
   std::uint16_t model = 0;
   std::string reason;

@@ -62,13 +62,13 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     host_.on_drain([weak = weak_from_this()] {
       if (const auto self = weak.lock()) self->close_with(websocket::close_code::service_restart);
     });
-    open({.model = 0, .id = {}, .head = options_.sends_head}, std::move(model));
+    open({.model = 0, .id = {}, .wants_head = options_.sends_head}, std::move(model));
     asio::co_spawn(socket_->get_executor(), read(shared_from_this()), asio::detached);
     co_await guarded(&StreamSession::write);
     co_await guarded(&StreamSession::say_goodbye);
     boost::system::error_code ignored;
     socket_->close(ignored);
-    while (!reader_ended_)
+    while (!has_reader_ended_)
       co_await changed({});
   }
 
@@ -93,7 +93,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   struct ReaderEnd {
     StreamSession& session;
     ~ReaderEnd() {
-      session.reader_ended_ = true;
+      session.has_reader_ended_ = true;
       session.change_.cancel();
     }
   };
@@ -162,13 +162,15 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 
   Expected<void> open(const OpenMessage& wanted, Model model) {
     const Manifest& manifest = model->manifest();
-    if (auto opened = state_.open(wanted.model, manifest, wanted.head); !opened) return opened;
+    if (auto opened = state_.open(wanted.model, manifest, wanted.wants_head); !opened)
+      return opened;
     const ModelMessage message{.model = wanted.model,
                                .sha256 = to_hex(model->record().file),
                                .chunks = manifest.chunks.size(),
                                .head_bytes = manifest.head_bytes(),
                                .slice_bytes = kMaxSlice,
-                               .credit = state_.credit()};
+                               .credit = state_.credit(),
+                               .presentation = client_text(model->record().presentation)};
     models_[wanted.model] = std::move(model);
     tell_models();
     return answer(message);
@@ -210,7 +212,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 
   asio::awaitable<void> write() {
     bool sent = true;
-    while (sent && !goodbye_ && !reader_ended_) {
+    while (sent && !goodbye_ && !has_reader_ended_) {
       if (!answers_.empty()) {
         sent = co_await send_text(std::exchange(answers_.front(), {}));
         answers_.erase(answers_.begin());
@@ -271,7 +273,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   std::map<std::uint16_t, Model> models_;  // the models that are open in state_
   std::vector<std::string> answers_;       // messages to send before any other output
   std::optional<websocket::close_reason> goodbye_;
-  bool reader_ended_ = false;
+  bool has_reader_ended_ = false;
 };
 
 }  // namespace

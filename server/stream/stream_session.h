@@ -27,7 +27,7 @@ class StreamHost {
   // Finds a model that this client may see. The message of the error is sent to the client.
   virtual boost::asio::awaitable<Expected<StreamedModel>> find(std::string id) = 0;
   // Whether the client may still see the model, and the model's file is still the one that was
-  // opened. Called for each `want`. If it returns false, the connection ends with close code 1012.
+  // opened. Called for each detail request. If false, the connection ends with close code 1012.
   virtual boost::asio::awaitable<bool> is_current(StreamedModel model) = 0;
   // Called each time a model is opened or closed. `models` are all models that are now open.
   virtual void shows(std::vector<StreamedModel> models) = 0;

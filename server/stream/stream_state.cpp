@@ -18,10 +18,10 @@ StreamState::Sharer* StreamState::find(std::uint16_t model) {
   return found == models_.end() ? nullptr : &*found;
 }
 
-Expected<void> StreamState::open(std::uint16_t model, const Manifest& manifest, bool head) {
+Expected<void> StreamState::open(std::uint16_t model, const Manifest& manifest, bool sends_head) {
   if (find(model) != nullptr) return fail(ErrorCode::kBadInput, "open: the number is taken");
   const std::uint64_t served = models_.empty() ? 0 : models_.front().served;
-  models_.insert(models_.begin(), Sharer{ModelStream(model, manifest, head), served});
+  models_.insert(models_.begin(), Sharer{ModelStream(model, manifest, sends_head), served});
   return {};
 }
 
@@ -58,7 +58,7 @@ Expected<void> StreamState::receive_one(const HaveMessage& message, Time) {
 
 Expected<void> StreamState::receive_one(const PauseMessage& message, Time) {
   return with_model(message.model, [&](ModelStream& model) -> Expected<void> {
-    model.pause(message.pause);
+    model.set_paused(message.is_pause);
     return {};
   });
 }

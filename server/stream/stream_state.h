@@ -21,7 +21,7 @@ class StreamState {
 
   // Opens a model. The manifest must outlive the open model. Fails (kBadInput) if another open
   // model has the number.
-  Expected<void> open(std::uint16_t model, const Manifest& manifest, bool head);
+  Expected<void> open(std::uint16_t model, const Manifest& manifest, bool sends_head);
 
   // Handles any message except an OpenMessage, for which the caller calls open(). Fails with
   // kBadInput if the message refers to a model that is not open or a chunk that does not exist.

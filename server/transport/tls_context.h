@@ -26,7 +26,7 @@ class TlsContext {
  public:
   // Loads the files. Fails with kIo if a file cannot be read. Fails with kBadInput if a file is not
   // a certificate or a key, if the certificate is expired or not valid yet, or if the key does not
-  // belong to it.
+  // belong to the certificate.
   static Expected<std::shared_ptr<const TlsContext>> load(const TlsFiles& files);
 
   ~TlsContext();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks every route of the OpenAPI document as every role, for models in every state, on two
+// Requests every route of the OpenAPI document as every role, for models in every state, on two
 // daemons that share a PostgreSQL catalogue and a Ceph bucket. One daemon, which drives a simulated
-// scanner, makes and changes the model. Neither daemon may then reveal anything that the model
-// hides, and both must respond with the same statuses. Prints the access matrix. run.sh starts this
-// test.
+// scanner, makes and changes the model. Neither daemon may then reveal a hidden part of the model,
+// and both must respond with the same statuses. Prints the access matrix. run.sh starts this test.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { randomBytes } from "node:crypto";
@@ -24,7 +23,7 @@ import { Replica } from "./replica.mjs";
 import { Secrets } from "./secrets.mjs";
 
 const bin = process.env.VITRINE_BIN;
-const kBinary = ["glb", "ply", "stl", "drc"]; // other formats have numbers as text, which the manifest may have, too
+const kBinary = ["glb", "ply", "stl", "drc"]; // other formats store numbers as text, and the public manifest may contain the same text
 const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz"];
 const kRoles = ["none", "viewer", "operator", "admin"];
 const kPages = ["/", "/models/{id}", "/docs", "/console"];
@@ -69,7 +68,7 @@ async function token(role, conf) {
   return JSON.parse(stdout).token;
 }
 
-/** Starts a daemon that, if given a `rig`, drives it. */
+/** Starts a daemon. The daemon drives the scanner `rig`, if one is given. */
 async function replica(name, conf, rig) {
   await mkdir(join(folder, name));
   const port = await freePort(), words = ["--config", conf, "--roles", rig ? "serve,build,scan" : "serve,build"];
@@ -100,7 +99,7 @@ async function json(one, method, path, role, value) {
   return body.length > 0 ? JSON.parse(body) : undefined;
 }
 
-/** Waits for the end of a job. Returns its model. */
+/** Waits for the end of a job. Returns the ID of its model. */
 async function ended(job) {
   await ask(replicas[0], "GET", `/api/v1/jobs/${job}/events`, "operator"); // the response ends when the job ends
   const { state, model, error } = await json(replicas[0], "GET", `/jobs/${job}`, "operator");
@@ -108,7 +107,7 @@ async function ended(job) {
   return model;
 }
 
-/** Makes a model of a mesh, by an upload to the first daemon. Returns {model, job}. */
+/** Makes a model from a mesh, which is uploaded to the first daemon. Returns {model, job}. */
 async function upload(number, order) {
   const mesh = relief(number, kSide), tus = { "Tus-Resumable": "1.0.0" };
   const { headers } = await ask(replicas[0], "POST", "/api/v1/uploads", "operator", undefined, { ...tus, "Upload-Length": mesh.length });
@@ -152,7 +151,7 @@ async function measuredBy({ scan }) {
   return { bytes: answers.map(({ body }) => body) };
 }
 
-/** Returns a file. Removes the JSON of a GLB, whose words are no secret. */
+/** Returns the file. For a GLB, removes its JSON, because the words in the JSON are not secret. */
 function withoutText(file) {
   return file.subarray(0, 4).toString() === "glTF" ? file.subarray(20 + file.readUInt32LE(12)) : file;
 }
@@ -169,7 +168,7 @@ async function agree(model) {
   }
 }
 
-/** Returns the paths of a route in which each parameter has all of its `values`. */
+/** Returns all paths of a route. Each parameter is replaced by each of its `values`. */
 function expanded(path, values) {
   const name = path.match(/\{(\w+)\}/)?.[1];
   if (!name) return [path];
@@ -180,11 +179,16 @@ function expanded(path, values) {
 function queries(path, model) {
   if (/export|manifest$/.test(path)) return ["", "?level=highest"];
   if (path.endsWith("/poster.png")) return ["?width=240"];
-  if (path === "/api/v1/models") return ["", "?drafts=true"];
+  if (/^\/api\/v1\/(models|facets)$/.test(path)) return ["", "?drafts=true"];
+  if (path === "/api/v1/oai")
+    return ["?verb=ListRecords&metadataPrefix=lido", `?verb=GetRecord&metadataPrefix=edm&identifier=oai:127.0.0.1:${model}`];
   return path.endsWith("/oembed") ? [`?url=http://localhost/models/${model}`] : [""];
 }
 
-/** Asks one daemon for a route as one role, for all values of its parameters. Returns the statuses. */
+/**
+ * Requests a route from one daemon as one role, for all values of the route's parameters. Returns the
+ * statuses.
+ */
 async function walk(one, { method, path, role: least }, role, { state, made, names, secrets }) {
   const may = kRoles.indexOf(role) >= kRoles.indexOf(least), statuses = [];
   if (may && method !== "GET") return statuses; // the request would change the model
@@ -201,7 +205,9 @@ async function walk(one, { method, path, role: least }, role, { state, made, nam
   return statuses;
 }
 
-/** Returns the bytes that a visitor's stream of a model brings with its head and all levels. */
+/**
+ * Returns the bytes that a visitor receives over a model's stream, with its head and all levels.
+ */
 async function streamed({ port }, model) {
   const headers = { Connection: "Upgrade", Upgrade: "websocket", "Sec-WebSocket-Version": "13", "Sec-WebSocket-Protocol": "pmesh.v1",
                     "Sec-WebSocket-Key": randomBytes(16).toString("base64") };
@@ -221,8 +227,9 @@ const change = (path, value) => ({ model }) => json(replicas[0], value ? "PATCH"
 const cap = change("", { public_max_level: 0 });
 const replace = async ({ model }) => upload(100 + states, { replace: model });
 
-// Each state: its name, the order that makes the model, the change, the status for visitors, and what is public after it:
-// all, level 0, or nothing. A scan's points and profiles are public only if all of its own model is.
+// Each state has a name, the order that makes the model, and the change that leads to the state. The last two values are
+// the status for visitors, and the part of the model that is then public: all, level 0, or nothing. A scan's points and
+// profiles are public only if its whole model is public.
 const kStates = [
   ["published", { publish: true }, () => undefined, 200, "all"],
   ["in cm", { publish: true }, change("", { unit: "cm" }), 200, "all"],
@@ -233,6 +240,10 @@ const kStates = [
     await replace(made);
   }, 200, 0],
   ["withdrawn", { publish: true }, change("/unpublish"), 404, "none"],
+  ["published again", { publish: true }, async (made) => {
+    await change("/unpublish")(made);
+    await change("/publish")(made);
+  }, 200, "all"],
   ["a draft", { publish: false }, () => undefined, 404, "none"],
   ["removed", { publish: true }, ({ model }) => json(replicas[0], "DELETE", `/models/${model}`, "operator"), 404, "none"],
 ];
@@ -255,9 +266,12 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     for (const { bytes } of [old, now, measured]) bytes.forEach((part) => secrets.hide(part));
     const open = shown === "all" ? now : shown === "none" ? { bytes: [] } : await pictured(made.model, shown);
     open.bytes.forEach((part) => secrets.reveal(part));
-    secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/`)); // every export states this URL as its source
+    // Every export states the model's URL as its source. The URL of a public model made at the same time begins equally, because
+    // an ID begins with ten characters of time.
+    secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/${made.model.slice(0, 10)}`));
+    secrets.reveal(Buffer.from('<?xml version="1.0" encoding="UTF-8"?>\n<')); // records and files of 3MF begin so
     if (state === "published") measured.bytes.forEach((part) => secrets.reveal(part));
-    assert.ok(state === "published" || state === "in cm" || secrets.size > 100, "nothing is hidden, so this test proves nothing");
+    assert.ok(["published", "in cm", "published again"].includes(state) || secrets.size > 100, "nothing is hidden, so this test proves nothing");
     const visit = { state: `${subject} is ${state}`, made, secrets, names: [...new Set([...old.names, ...now.names])] };
     for (const route of routes) await walkAll(route, visit);
     for (const one of replicas) assert.ok(!secrets.areIn(await streamed(one, made.model)), "the stream gives what is hidden");
@@ -265,7 +279,7 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
 }
 
 async function walkAll(route, visit) {
-  for (const role of states === 1 ? kRoles : ["none"]) { // only visitors see less if the model is in another state
+  for (const role of states === 1 ? kRoles : ["none"]) { // the model's state changes only what visitors see
     const [first, second] = await Promise.all(replicas.map((one) => walk(one, route, role, visit)));
     assert.deepEqual(second, first, `${visit.state}: ${role} ${route.method} ${route.path}`);
     const row = `${route.method} ${route.path}`, column = role === "none" ? `visitor; ${visit.state}` : role;

@@ -73,7 +73,7 @@ export class Gateway extends Backend {
     return (await run("curl", [...words, "-H", "x-amz-content-sha256: UNSIGNED-PAYLOAD", url])).stdout;
   }
 
-  /** Returns the SHA-256 of each stored object, at most 1,000. */
+  /** Returns the SHA-256 of each stored object. Lists at most 1,000 objects. */
   async objects() {
     const listed = await this.#bucket("GET", "?list-type=2&prefix=objects%2F");
     return [...listed.matchAll(/<Key>objects\/([0-9a-f/]+)<\/Key>/g)].map(([, key]) => key.replaceAll("/", ""));

@@ -8,8 +8,9 @@ const kOpenJobs = 4; // maximum number of jobs at a time
 
 export class Curator {
   /**
-   * Uses `meshes` ({obj, isBrief}) in turn. A model with `isBrief` is deleted as soon as it exists. Garbage collection
-   * may therefore remove its file just when the next model of the same mesh needs the file.
+   * Uses `meshes` ({obj, isBrief}) in turn. The model of a mesh with `isBrief` is deleted as soon as it exists.
+   * Garbage collection may therefore remove the model's file just when the next model of the same mesh needs the same
+   * file.
    */
   constructor(visitor, meshes) {
     Object.assign(this, { visitor, meshes, orders: [], deleted: new Set(), stopped: false });

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-const kWindow = 16; // length of a window, in bytes
+// Length of a window, in bytes. Two models can have 16 equal bytes in their PLY files (a triangle and a part of the next
+// one), so a window must be longer.
+const kWindow = 32;
 
 /**
  * Content that visitors must not get. Stores its adjacent windows of kWindow bytes, and therefore
- * recognises any 31 successive bytes of it.
+ * recognises any 63 successive bytes of it.
  */
 export class Secrets {
   #windows = new Set();

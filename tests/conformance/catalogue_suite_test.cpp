@@ -33,7 +33,12 @@ ModelRecord model(std::uint8_t value, const std::string& title = "A skull",
           .head_bytes = 100,
           .faces = 20,
           .vertices = 12,
-          .textures = {.count = 2, .largest_side = 2'048, .bytes = 700}};
+          .textures = {.count = 2, .largest_side = 2'048, .bytes = 700},
+          .repairs = "1 face dropped; check it\n1 file 'Büste.png' missing",
+          .presentation = {.rotation = {0.6, 0, 0, 0.8},
+                           .scale = 25.4,
+                           .view = PresentedView{.azimuth = 30, .target = Vec3{1, 2, 0.1}},
+                           .turned_box = Bounds{{0, 0, 0}, {1, 2, 3}}}};
 }
 
 class CatalogueSuite : public testing::Test {
@@ -72,6 +77,8 @@ TEST_F(CatalogueSuite, AModelIsFoundAsItWasAdded) {
   EXPECT_EQ(found->faces, added.faces);
   EXPECT_EQ(found->vertices, added.vertices);
   EXPECT_EQ(found->textures, added.textures);
+  EXPECT_EQ(found->repairs, added.repairs);
+  EXPECT_EQ(found->presentation, added.presentation);
 }
 
 TEST_F(CatalogueSuite, TheNewestPublishedModelOfAFileAndItsTextsIsFound) {
@@ -119,7 +126,7 @@ TEST_F(CatalogueSuite, ASearchListsTheNewestFirstAndNoDrafts) {
             (std::vector<ModelId>{id_of(3), id_of(2), id_of(1)}));
 }
 
-TEST_F(CatalogueSuite, EveryWordMustOccurInTitleOrCreator) {
+TEST_F(CatalogueSuite, EveryWordMustBeginAWordOfTheTexts) {
   add(model(1, "Head of Demosthenes"));
   add(model(2, "Head of a girl"));
   EXPECT_EQ(search({.text = "head demos"}), std::vector<ModelId>{id_of(1)});
@@ -127,12 +134,112 @@ TEST_F(CatalogueSuite, EveryWordMustOccurInTitleOrCreator) {
   EXPECT_EQ(search({.text = "hand"}), std::vector<server::ModelId>{});
 }
 
-TEST_F(CatalogueSuite, WildcardsInASearchAreLiteral) {
+// Returns a record of a model with the further metadata `more`.
+ModelRecord described(std::uint8_t value, std::map<std::string, std::string> more,
+                      ModelState state = ModelState::kPublished) {
+  ModelRecord record = model(value, "A skull", state);
+  record.more = std::move(more);
+  return record;
+}
+
+TEST_F(CatalogueSuite, ASearchFindsWordsOfAllTextsWithoutCaseAndAccents) {
+  add(described(1, {{"description", "L'Écorché,\nof \"plaster\"; no. 1898.12"}}));
+  add(described(2, {{"material", "Bronze"}, {"provenance", "Πειραιάς"}}));
+  for (const char* words : {"ecorche", "ÉCORCHÉ plaster", "1898.12", "12 1898", "cc0 plaster"})
+    EXPECT_EQ(search({.text = words}), std::vector<ModelId>{id_of(1)}) << words;
+  for (const char* words : {"bronze", "BRON mull", "Πειραιάς"})
+    EXPECT_EQ(search({.text = words}), std::vector<ModelId>{id_of(2)}) << words;
+  EXPECT_EQ(search({.text = "description"}), std::vector<ModelId>{}) << "names are no texts";
+}
+
+TEST_F(CatalogueSuite, PunctuationInASearchOnlySeparatesWords) {
   add(model(1, "100 % marble"));
-  add(model(2, "100 parts of marble"));
-  EXPECT_EQ(search({.text = "%"}), std::vector<ModelId>{id_of(1)});
-  EXPECT_EQ(search({.text = "_"}), std::vector<server::ModelId>{});
-  EXPECT_EQ(search({.text = "\\"}), std::vector<server::ModelId>{});
+  for (const char* words : {"%", "_", "\\", "'", "\"", "100*", "marble & 100", "!marble", "(100",
+                            ":*", "NOT", "\"a", "--", "“marble”", "a OR b"})
+    EXPECT_TRUE(catalogue_->search({.text = words})) << words;
+  EXPECT_EQ(search({.text = "100*|"}), std::vector<ModelId>{id_of(1)});
+  EXPECT_EQ(search({.text = "wood OR marble"}), std::vector<ModelId>{}) << "words, not operators";
+}
+
+TEST_F(CatalogueSuite, ASearchKnowsEachChange) {
+  ModelRecord changed = model(1, "Bust");
+  add(changed);
+  changed.title = "Torso";
+  changed.more = {{"material", "bronze; gold"}};
+  ASSERT_TRUE(catalogue_->update(changed, std::nullopt));
+  EXPECT_TRUE(search({.text = "bust"}).empty());
+  EXPECT_EQ(search({.text = "torso gold"}), std::vector<ModelId>{id_of(1)});
+  EXPECT_EQ(search({.facets = {{"material", "gold"}}}), std::vector<ModelId>{id_of(1)});
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kDraft));
+  EXPECT_TRUE(search({.text = "torso"}).empty());
+  EXPECT_TRUE(search({.facets = {{"material", "gold"}}}).empty());
+  EXPECT_EQ(catalogue_->facets({}).value().counts.size(), 0u);
+  ASSERT_TRUE(catalogue_->remove(id_of(1), std::nullopt));
+  EXPECT_TRUE(search({.text = "torso", .includes_drafts = true}).empty());
+  add(model(1, "Bust"));
+  EXPECT_EQ(search({.text = "bust"}), std::vector<ModelId>{id_of(1)});
+}
+
+TEST_F(CatalogueSuite, FacetsNarrowASearchAndAreCounted) {
+  add(described(1, {{"material", "bronze; gold"}, {"period", "Hellenistic"}}));
+  add(described(2, {{"material", "bronze;;bronze "}, {"subject", "\"rings\"; \\"}}));
+  add(described(3, {{"material", "bronze"}}, ModelState::kDraft));
+  using Count = server::FacetCount;
+  const auto all = catalogue_->facets({}).value();
+  EXPECT_EQ(all.models, 2u);
+  EXPECT_EQ(all.counts, (std::vector<Count>{{"creator", "Anna Müller", 2},
+                                            {"licence", "CC0-1.0", 2},
+                                            {"material", "bronze", 2},
+                                            {"material", "gold", 1},
+                                            {"period", "Hellenistic", 1},
+                                            {"subject", "\"rings\"", 1},
+                                            {"subject", "\\", 1}}));
+  const ModelQuery narrow{.text = "anna",
+                          .facets = {{"material", "bronze"}, {"period", "Hellenistic"}}};
+  EXPECT_EQ(search(narrow), std::vector<ModelId>{id_of(1)});
+  EXPECT_EQ(catalogue_->facets(narrow).value().models, 1u);
+  EXPECT_EQ(catalogue_->facets({.facets = {{"material", "bronze"}}, .includes_drafts = true})
+                .value()
+                .models,
+            3u);
+  EXPECT_TRUE(search({.facets = {{"material", "Bronze"}}}).empty());
+}
+
+TEST_F(CatalogueSuite, AFacetCountsItsMostFrequentValues) {
+  for (std::uint8_t i = 0; i < 40; ++i)
+    add(described(i, {{"subject", "subject " + std::to_string(i) + (i % 2 == 0 ? "; even" : "")}}));
+  std::vector<server::FacetCount> subjects = catalogue_->facets({}).value().counts;
+  std::erase_if(subjects, [](const auto& count) { return count.name != "subject"; });
+  ASSERT_EQ(subjects.size(), server::kMostFacetValues);
+  EXPECT_EQ(subjects.front(), (server::FacetCount{"subject", "even", 20}));
+}
+
+TEST_F(CatalogueSuite, EachOrderHasPagesWithoutGapOrRepetition) {
+  const char* const titles[] = {"beta", "Alpha", "", "alpha", "Gamma"};
+  for (std::uint8_t i = 0; i < 5; ++i)
+    add(model(i, titles[i]));
+  using enum server::ModelOrdering;
+  const auto in_order = [&](server::ModelOrdering ordering) {
+    std::vector<ModelId> ids;
+    ModelQuery query{.ordering = ordering, .limit = 2};
+    do {
+      const ModelPage page = catalogue_->search(query).value();
+      for (const auto& found : page.models)
+        ids.push_back(found.id);
+      query.after = page.next;
+    } while (query.after);
+    return ids;
+  };
+  const auto ids = [](std::initializer_list<std::uint8_t> values) {
+    std::vector<ModelId> all;
+    for (const std::uint8_t value : values)
+      all.push_back(id_of(value));
+    return all;
+  };
+  EXPECT_EQ(in_order(kNewest), ids({4, 3, 2, 1, 0}));
+  EXPECT_EQ(in_order(kOldest), ids({0, 1, 2, 3, 4}));
+  EXPECT_EQ(in_order(kTitle), ids({2, 1, 3, 0, 4}));
+  EXPECT_EQ(in_order(kCreator), ids({0, 1, 2, 3, 4}));
 }
 
 TEST_F(CatalogueSuite, PagesFollowEachOtherWithoutGapOrRepetition) {
@@ -160,6 +267,15 @@ TEST_F(CatalogueSuite, ALastPageThatIsJustFullNamesNoNext) {
     add(model(i));
   EXPECT_FALSE(catalogue_->search({.limit = 3}).value().next);
   EXPECT_TRUE(catalogue_->search({.limit = 2}).value().next);
+}
+
+TEST_F(CatalogueSuite, TheCursorsOfAllPagesAreThoseOfASearch) {
+  for (std::uint8_t i = 1; i <= 6; ++i)
+    add(model(i));
+  add(model(7, "hidden", ModelState::kDraft));
+  EXPECT_EQ(catalogue_->page_cursors(2).value(), (std::vector<ModelId>{id_of(5), id_of(3)}));
+  EXPECT_EQ(catalogue_->page_cursors(5).value(), std::vector<ModelId>{id_of(2)});
+  EXPECT_EQ(catalogue_->page_cursors(6).value(), std::vector<server::ModelId>{});
 }
 
 TEST_F(CatalogueSuite, APageHasAtLeastOneAndAtMostTheStatedNumber) {
@@ -278,6 +394,9 @@ TEST_F(CatalogueSuite, AModelIsChangedAsAWholeAndByOneAtATime) {
                                            .vertices = 8,
                                            .textures = {1, 128, 60}};
   changed.textures = {3, 4'096, 80};
+  changed.repairs = "1 duplicate face dropped";
+  changed.presentation = {.poster = PresentedView{.zoom = 2},
+                          .light = PresentedLight{"raking", 45}};
   const ChunkPlace chunks[] = {{digest(9), 200, 20}};
   const auto before = catalogue_->revision().value();
   ASSERT_TRUE(catalogue_->update(changed, chunks));
@@ -300,6 +419,8 @@ TEST_F(CatalogueSuite, AModelIsChangedAsAWholeAndByOneAtATime) {
   EXPECT_EQ(found.public_part->vertices, 8u);
   EXPECT_EQ(found.public_part->textures, (server::TextureSummary{1, 128, 60}));
   EXPECT_EQ(found.textures, (server::TextureSummary{3, 4'096, 80}));
+  EXPECT_EQ(found.repairs, changed.repairs);
+  EXPECT_EQ(found.presentation, changed.presentation);
   EXPECT_EQ(catalogue_->update(changed, std::nullopt).error().code, ErrorCode::kState);
   ASSERT_TRUE(catalogue_->set_state(id_of(1), server::ModelState::kPublished));
   EXPECT_EQ(catalogue_->update(found, std::nullopt).error().code, ErrorCode::kState);
@@ -364,7 +485,7 @@ TEST_F(CatalogueSuite, ATokenIsAddedOnceAndRevokedOnce) {
 TEST_F(CatalogueSuite, TellsWhichChunksOfAPublishedModelItHides) {
   std::vector<std::vector<Sha256>> told;
   catalogue_->when_hidden([&](std::vector<Sha256> chunks) {
-    ASSERT_TRUE(catalogue_->revision());  // the function may use the catalogue
+    ASSERT_TRUE(catalogue_->revision());  // the callback may use the catalogue
     told.push_back(std::move(chunks));
   });
   const std::vector<std::vector<Sha256>> once = {{digest(7)}};
@@ -376,8 +497,10 @@ TEST_F(CatalogueSuite, TellsWhichChunksOfAPublishedModelItHides) {
   ASSERT_TRUE(catalogue_->update(model(1, "A new title"), std::nullopt));
   ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kPublished));
   expect_told("a title and a publication hide nothing", {});
+  EXPECT_EQ(catalogue_->public_chunks(id_of(1)).value(), once.front());
   ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kDraft));
   expect_told("withdrawal", once);
+  EXPECT_TRUE(catalogue_->public_chunks(id_of(1)).value().empty());
   ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kDraft));
   expect_told("a draft has nothing to hide", {});
   ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kPublished));

@@ -226,7 +226,7 @@ TEST_F(Claims, ACancellationSurvivesADaemonThatDidNotLearnOfIt) {
   for (const std::uint8_t value : std::array<std::uint8_t, 2>{1, 2})
     EXPECT_EQ(jobs_->cancel(id_of(value), 1).value().state, JobState::kRunning);
   ASSERT_TRUE(jobs_->drop_leases("dead"));
-  mine.state = JobState::kQueued;  // the state that a daemon gives its jobs when it ends
+  mine.state = JobState::kQueued;  // the state that a daemon gives its jobs when the daemon stops
   ASSERT_TRUE(jobs_->update(mine));
   for (const std::uint8_t value : std::array<std::uint8_t, 2>{1, 2})
     EXPECT_TRUE(jobs_->renew(claim(value, kLong), 1h).value());

@@ -138,7 +138,7 @@ TEST_F(ObjectStoreSuite, ASweepRemovesUnnamedObjectsAfterTheirGracePeriod) {
   EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0), kHeld).value(), 1u);
   EXPECT_EQ(open(other), nullptr);
   EXPECT_TRUE(open(named));
-  EXPECT_EQ(reading->read(0, 2'000).value(), other);  // an open reader can still read the object
+  EXPECT_EQ(reading->read(0, 2'000).value(), other);  // open readers still read the removed object
   EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0), kHeld).value(), 0u);
 }
 

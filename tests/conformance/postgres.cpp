@@ -3,8 +3,6 @@
 #include "conformance/jobs_suite.h"
 #include "server/catalogue/postgres_catalogue.h"
 #include "server/catalogue/sql_catalogue.h"
-#include "server/catalogue/sql_jobs.h"
-#include "server/catalogue/sql_visits.h"
 #include "support/process/postgres_server.h"
 #include "support/product_names.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the check of a catalogue on a database server.
+// Tests find_faults(), which checks a PostgreSQL catalogue for damage.
 #include "server/catalogue/postgres_faults.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/catalogue_suite.h"
-#include "server/catalogue/sql_visits.h"
+#include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sqlite_catalogue.h"
 #include "server/catalogue/sqlite_database.h"
 #include "support/product_names.h"

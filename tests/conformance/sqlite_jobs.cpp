@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/catalogue/sqlite_jobs.h"
-
 #include "conformance/jobs_suite.h"
 #include "server/catalogue/sqlite_catalogue.h"
 #include "support/product_names.h"

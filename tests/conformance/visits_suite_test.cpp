@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that the counts of visits are sums for each model and day.
+// Tests that a catalogue adds up the visits for each model and day.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -23,7 +23,7 @@ class VisitsSuite : public testing::Test {
   }
 
   static ModelDay at(std::uint8_t model, int day = 0) { return {id_of(model), kDay + days(day)}; }
-  // Returns the sums of the model over days of kDay to kDay + `last`.
+  // Returns the model's sums over the days from kDay to kDay + `last`.
   VisitCounts counts_of(std::uint8_t model, int last = 0) {
     const std::vector<ModelVisits> all = visits_->by_model({kDay, kDay + days(last)}, 10).value();
     for (const ModelVisits& one : all) {

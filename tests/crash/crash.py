@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Kills the daemon at random points of an operator's requests, starts it again, and checks its data.
 
-usage: crash.py BINARIES [KILLS [SEED]]
+Usage: crash.py BINARIES [KILLS [SEED]]
 
 The operator uploads, builds, publishes, limits, replaces and deletes models, and collects garbage. After each start:
 - Every model's file is the one that its manifest names, and passes `vitrine verify`.
 - Every upload contains all bytes that were acknowledged.
-- Every job ends.
+- Every job ends, and is done if it has stored its model.
 - No model is missing, unless its deletion was requested.
 - After a garbage collection, the store contains exactly the objects that models name.
 """
@@ -182,6 +182,8 @@ class Look:
         for job in jobs:
             if job["state"] == "failed" and not self.may_fail(job["error"]):
                 raise AssertionError(f"a job failed: {job}")
+            if job["state"] in ("failed", "cancelled") and job["model"] is not None:
+                raise AssertionError(f"a job whose model was stored is not done: {job}")
         return all(job["state"] in ("done", "failed", "cancelled") for job in jobs)
 
     @staticmethod

@@ -5,7 +5,7 @@
 On a full disk, requests that need space must fail with a clear message, and all others must succeed. On a failing disk,
 requests and jobs that the fault affects must fail, and published models must still be served.
 
-usage: disk.py BINARIES
+Usage: disk.py BINARIES
 """
 import json
 import os

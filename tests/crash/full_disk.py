@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publishes models while a change of the disk fails, for each change that a publication makes.
 
-usage: full_disk.py BINARIES [MORE...]
+Usage: full_disk.py BINARIES [MORE...]
 
 Changes are writes, syncs, new files and folders, links and renames, including those of SQLite. Each argument MORE (default
 2) stands for a series of publications. In each publication, the n-th change and the MORE changes after it fail, so that

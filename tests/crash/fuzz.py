@@ -4,7 +4,7 @@
 
 The daemon must not end, must not answer with a status 5xx, and must not use more and more memory.
 
-usage: fuzz.py BINARIES [REQUESTS [FRAMES [SEED]]]
+Usage: fuzz.py BINARIES [REQUESTS [FRAMES [SEED]]]
 
 The requests are mutations of all calls of the OpenAPI document and of requests for some pages, with and without a token.
 The frames are mutations of all messages of the stream protocol. Prints the random seed, how often each status occurred, and

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lets allocations fail at random. Requests that need memory may fail or be cut off, but the daemon must keep serving.
 
-usage: memory.py BINARIES [ROUNDS]
+Usage: memory.py BINARIES [ROUNDS]
 """
 import http.client
 import json
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from crash import torus
@@ -50,6 +51,17 @@ def ask(daemon, token, call):
         connection.close()
 
 
+def settled(daemon, token, call):
+    """Repeats a request while it gets 503, for at most 5 s, and returns its status. Requests share the failure to open a model for a
+    tenth of a second."""
+    end = time.monotonic() + 5
+    while True:
+        status = ask(daemon, token, call)
+        if status != 503 or time.monotonic() > end:
+            return status
+        time.sleep(0.02)
+
+
 def refuse_memory(daemon, control, token, model, rounds):
     """Sends requests while allocations fail. Returns how often each status occurred."""
     def fiu(command):
@@ -64,7 +76,7 @@ def refuse_memory(daemon, control, token, model, rounds):
             assert daemon.process.poll() is None, (call, daemon.process.returncode)
         fiu("disable name=libc/mm/malloc")
         for call in calls(model):
-            status = ask(daemon, token, call)
+            status = settled(daemon, token, call)
             assert status in (101, 200, 400, 404, 422), (call, status, "once there is memory again")
     return dict(sorted(seen.items()))
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Damages the catalogue page by page. The daemon may refuse to start or serve, but must neither crash nor send wrong bytes.
 
-usage: pages.py BINARIES
+Usage: pages.py BINARIES
 
 For each page of the SQLite file, makes two damaged copies: one with all bits of the page inverted, one with a random bit
 inverted. With each copy, every model file that the daemon sends must be the right one, and no signal may end the daemon.

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Uploads models whose JPEG, WebP or PNG textures are damaged. Jobs must make models without textures; the daemon must survive.
 
-usage: pictures.py BINARIES [DAMAGES [SEED]]
+Usage: pictures.py BINARIES [DAMAGES [SEED]]
 
 For each texture, makes DAMAGES (default 3) shortened copies and as many copies with flipped bits. Pictures in formats that
-the reader does not support, such as TIFF, count as damaged. Prints the random seed and how the jobs ended.
+the reader does not support, such as GIF, count as damaged. Prints the random seed and how the jobs ended.
 """
 import collections
 import json

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the daemon under load and faults for hours, and checks its data after each start.
 
-usage: soak.py BINARIES [HOURS [SEED]]
+Usage: soak.py BINARIES [HOURS [SEED]]
 
 An operator works as in crash.py. Meanwhile, some changes of the disk fail as if it were full, the clock jumps, and mutated
 requests and frames arrive. Each daemon runs for some minutes and is ended by SIGKILL or SIGTERM. The script makes the checks

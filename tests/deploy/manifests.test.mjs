@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the compose file and the manifests for Kubernetes: they are valid by their schemas and complete, and the daemon
-// accepts their settings.
+// Tests the compose file and the manifests for Kubernetes: they are complete, conform to their schemas, and have
+// settings that the daemon accepts.
 // Environment: VITRINE_BIN.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -28,7 +28,9 @@ before(async () => {
   }));
 });
 
-/** Asserts that the daemon accepts `settings`. Values that each installation chooses are filled in first. */
+/**
+ * Asserts that the daemon accepts `settings`. First fills in the values that each installation must choose.
+ */
 function assertTaken(settings) {
   const chosen = Object.entries(settings).map(([name, value]) => [name, String(value).replace(/\$\{\w+:\?[^}]*\}/g, "secret")]);
   const env = { PATH: process.env.PATH, ...Object.fromEntries(chosen.filter(([name]) => name.startsWith("VITRINE_"))) };

@@ -27,8 +27,8 @@ export async function newContext(browser, options) {
 const kEvents = ["first-paint", "refine", "picture", "memory", "progress", "load", "error", "camera-change"];
 
 /**
- * Runs in the page: sets `attributes` on each <progressive-mesh> as soon as it is in the document. The policy of the daemon's pages
- * forbids the attribute `style`, but not its property.
+ * Runs in the page: sets `attributes` on each <progressive-mesh> as soon as it is in the document. Sets `style` as a property,
+ * because the content security policy of the daemon's pages forbids the attribute.
  */
 function dress(attributes) {
   new MutationObserver(() => {
@@ -138,7 +138,7 @@ export class ViewerPage {
     return this.page.locator("output .triangles").textContent();
   }
 
-  /** Waits for two animation frames. By then, the page has served all earlier requests to draw. */
+  /** Waits for two animation frames. By then, the page has drawn all earlier changes. */
   frames() {
     return this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
@@ -151,7 +151,7 @@ export class ViewerPage {
 
   /** Returns the errors that the browser has reported so far. */
   async complaints() {
-    // Makes a call to the page. Its reply arrives after all earlier messages of the page.
+    // Calls the page and waits for the reply, which arrives after all earlier messages of the page.
     await this.frames();
     return this.errors;
   }

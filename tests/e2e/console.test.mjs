@@ -38,6 +38,22 @@ async function asked(path, { token = operator, ...options } = {}) {
   return fetch(`${daemon.url}/api/v1${path}`, { ...options, headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json" } });
 }
 
+/**
+ * Checks that a page of the gallery fits into narrow and wide windows and is accessible, in the light and the dark theme. Takes
+ * screenshots.
+ */
+async function isFitInBothThemes(page, name) {
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    for (const [width, height] of [[360, 740], [768, 1024], [1920, 1080]]) {
+      await page.setViewportSize({ width, height });
+      await page.screenshot({ path: join(pictures, `gallery-${name}-${colorScheme}-${width}.png`) });
+      assert.ok((await overflow(page)) <= 0, `${name} at ${width}`);
+    }
+    assert.deepEqual(await violations(page), [], `${name}, ${colorScheme}`);
+  }
+}
+
 async function onDisplay() {
   return (await (await fetch(`${daemon.url}/api/v1/models`)).json()).models.map(({ title }) => title);
 }
@@ -143,6 +159,31 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await desk.close();
 });
 
+test("what the build of a file changed is seen after the upload, and on the model's page", async () => {
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
+  await desk.drop("twice.obj", Buffer.concat([kTetrahedron, Buffer.from("f 3 1 4\n")]));
+  const card = page.locator("li.upload");
+  await desk.press("Create the model", card);
+  await card.getByText("1 duplicate face dropped").waitFor({ timeout: 60_000 });
+  await card.getByText("Done", { exact: true }).waitFor({ timeout: 60_000 });
+  await card.locator("summary").click();
+  assert.equal(await card.getByText("1 duplicate face dropped").isVisible(), false, "the list can be closed");
+  await card.getByRole("link", { name: "Open the model" }).click();
+  await page.getByRole("heading", { name: "What the build changed or left out" }).waitFor();
+  await page.getByText("1 duplicate face dropped").waitFor();
+  await desk.isFit("repairs");
+  const id = page.url().split("/").pop();
+
+  await page.getByText("Replace the file…").click();
+  await desk.drop("small.obj", kTetrahedron);
+  await desk.press("Replace");
+  await page.getByRole("heading", { name: "What the build changed or left out" }).waitFor({ state: "hidden", timeout: 60_000 });
+  assert.deepEqual((await (await asked(`/models/${id}`)).json()).repairs, []);
+  await asked(`/models/${id}`, { method: "DELETE" });
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
 test("an upload resumes where it was after the page was closed", async () => {
   const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
   const large = { name: "large.ply", bytes: Buffer.alloc(kPiece + 1000) }, offsets = [];
@@ -152,7 +193,7 @@ test("an upload resumes where it was after the page was closed", async () => {
     if (route.request().method() !== "PATCH") return route.continue();
     const offset = Number(route.request().headers()["upload-offset"]);
     offsets.push(offset);
-    // While `hold` is true, holds back all pieces except the first.
+    // While `hold` is true, holds back all pieces of the upload except the first.
     return hold && offset > 0 ? secondIsHeld() : route.continue();
   });
   page.on("dialog", (dialog) => dialog.accept());
@@ -255,21 +296,10 @@ test("the gallery is searched, and an object's page tells what is known and give
   const words = { creator: "Praxiteles", licence: "CC0-1.0", unit: "mm", accuracy: 0.05, description: "Holds the infant Dionysos.", date: "about 340 BC" };
   await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify(words) });
   const context = await newContext(browser, { viewport: { width: 1280, height: 860 }, permissions: ["clipboard-read", "clipboard-write"] }), page = await context.newPage();
-  const shoot = async (name) => {
-    for (const [width, height] of [[360, 740], [768, 1024], [1920, 1080]]) {
-      await page.setViewportSize({ width, height });
-      await page.screenshot({ path: join(pictures, `gallery-${name}-${width}.png`) });
-      assert.ok((await overflow(page)) <= 0, `${name} at ${width}`);
-    }
-    assert.deepEqual(await violations(page), [], name);
-  };
   await page.goto(daemon.url);
   await page.locator("#models li").nth(1).waitFor();
   await page.waitForFunction(() => [...document.images].every(({ naturalWidth }) => naturalWidth > 0));
-  for (const colorScheme of ["light", "dark"]) {
-    await page.emulateMedia({ colorScheme });
-    await shoot(colorScheme);
-  }
+  await isFitInBothThemes(page, "all");
   await page.getByRole("searchbox").fill("herm");
   await page.getByText("Found: 1").waitFor();
   await page.getByRole("searchbox").fill("nothing like it");
@@ -280,7 +310,7 @@ test("the gallery is searched, and an object's page tells what is known and give
   assert.equal(await page.getByRole("link", { name: "CC0-1.0" }).getAttribute("href"), "https://creativecommons.org/publicdomain/zero/1.0/");
   await page.getByText("± 0.05 mm").waitFor();
   const about = page.locator("#about");
-  await about.getByRole("button", { name: "Copy" }).first().click();
+  await about.locator(".copyable").first().getByRole("button", { name: "Copy" }).click();
   await about.getByText("Copied").waitFor();
   assert.match(await page.evaluate(() => navigator.clipboard.readText()), new RegExp(`<progressive-mesh src="${daemon.url}/api/v1/models/${id}" alt="Hermes" camera-controls `));
   assert.equal((await page.request.get(await about.getByRole("link", { name: "IIIF manifest" }).evaluate((link) => link.href))).status(), 200);
@@ -289,11 +319,56 @@ test("the gallery is searched, and an object's page tells what is known and give
   const download = page.waitForEvent("download");
   await about.getByRole("link", { name: "Download" }).click();
   assert.ok((await readFile(await (await download).path())).length > 84);
-  for (const colorScheme of ["light", "dark"]) {
-    await page.emulateMedia({ colorScheme });
-    await shoot(`object-${colorScheme}`);
-  }
+  await isFitInBothThemes(page, "object");
   await context.close();
+});
+
+test("what a registrar enters stands on the object's page and narrows the gallery", async () => {
+  const [kouros, kore] = [await daemon.publish(scan, "Kouros"), await daemon.publish(scan, "Kore")].map((url) => url.split("/").pop());
+  await asked(`/models/${kouros}`, { method: "PATCH", body: JSON.stringify({ material: "marble", period: "Archaic" }) });
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
+  const fill = (label, text) => page.getByLabel(label, { exact: true }).fill(text);
+  await desk.go(`models/${kore}`, "Kore");
+  await page.getByLabel("Rights statement").selectOption({ label: "No Known Copyright" });
+  await page.getByLabel("Unit").selectOption("mm");
+  for (const [label, text] of [["Material", "marble; pigment"], ["Period", "Archaic"], ["Collection", "Akropolis"], ["Provenance", "Found in 1886.\n\nNorth-west of the Erechtheion."], ["Scanner", "Rig 2"]])
+    await fill(label, text);
+  await fill("DOI", "https://doi.org/10.5281/zenodo.1");
+  await desk.press("Save");
+  await page.locator("[name=doi][aria-invalid]:focus ~ small", { hasText: "Expected: a DOI without a resolver" }).waitFor();
+  await fill("DOI", "10.5281/zenodo.1");
+  await desk.press("Save");
+  await desk.says("Saved.");
+  await desk.isFit("registrar");
+  const record = await (await asked(`/models/${kore}`)).json();
+  assert.deepEqual([record.material, record.provenance, record.rights_statement, record.dimensions.unit],
+    ["marble; pigment", "Found in 1886.\n\nNorth-west of the Erechtheion.", "http://rightsstatements.org/vocab/NKC/1.0/", "mm"]);
+
+  const shown = page.locator("#models h2"), facet = (name) => page.locator("#groups").getByRole("button", { name, exact: true });
+  const isShown = (count) => page.waitForFunction((wanted) => document.querySelectorAll("#models li").length === wanted, count);
+  await page.goto(`${daemon.url}/?period=Archaic`);
+  await isShown(2);
+  assert.ok(await facet("Archaic 2").isVisible(), "the facets are open if one is chosen");
+  await page.getByLabel("Order").selectOption("title");
+  await page.waitForFunction(() => document.querySelector("#models h2")?.textContent === "Kore");
+  await facet("pigment 1").click();
+  await isShown(1);
+  await page.getByText("Found: 1").waitFor();
+  assert.deepEqual(Object.fromEntries(new URL(page.url()).searchParams), { period: "Archaic", material: "pigment", sort: "title" });
+  assert.equal(await facet("pigment 1").evaluate((button) => button === document.activeElement), true, "the focus stays");
+  await isFitInBothThemes(page, "facets");
+  await page.reload();
+  await isShown(1);
+  assert.equal(await facet("pigment 1").getAttribute("aria-pressed"), "true");
+  await facet("pigment 1").click();
+  await isShown(2);
+  assert.deepEqual(await shown.allTextContents(), ["Kore", "Kouros"]);
+  await page.getByRole("link", { name: "Kore" }).click();
+  await page.getByRole("link", { name: "No Known Copyright" }).waitFor();
+  await page.getByText("mm (W × H × D)").waitFor();
+  assert.equal(await page.getByRole("link", { name: "10.5281/zenodo.1" }).getAttribute("href"), "https://doi.org/10.5281/zenodo.1");
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
 });
 
 test("no other site can frame a page of the daemon, by whatever name, but the viewer", async () => {

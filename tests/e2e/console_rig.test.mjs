@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests an operator's whole work in the browser, from the calibration to the published model:
-// calibrate, scan with the simulated scanner, watch the build, publish, and see the model refined
-// in the gallery.
+// Tests an operator's whole work in the browser. The operator calibrates the simulated scanner,
+// scans, watches the build, publishes the model, and sees it refined in the gallery.
 // Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
@@ -50,7 +49,7 @@ test("shows what the camera sees, turns the table and lights the laser", async (
 
 const banner = (text) => page.locator(".stopped:not([hidden])", { hasText: text }).waitFor();
 const header = (text) => page.locator(".power li", { hasText: text }).waitFor();
-/** Text of the header while a scan measures. */
+/** Matches the header's text while a scan measures. */
 const kMoves = /Table turns|Motor holds the table/;
 const state = async () => (await (await page.request.get(`${daemon.url}/api/v1/scanners/rig`, { headers: { Authorization: `Bearer ${token}` } })).json());
 
@@ -76,7 +75,10 @@ test("says after a stop what laser and motor really do, and puts the laser out w
   await expectDark();
 });
 
-/** Waits until the daemon has carried out the order that the page sent when it was left. */
+/**
+ * Waits until the laser is off. The page sends the command for this when the operator leaves the
+ * page.
+ */
 async function expectDark() {
   while ((await state()).laser.state !== "off") await page.waitForTimeout(50);
 }

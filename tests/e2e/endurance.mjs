@@ -17,7 +17,7 @@ const kStay = 5000; // ms that the camera stays at each orbit
 
 const [bin, scan, switches = 100, minutes = 20] = process.argv.slice(2).map((word, i) => (i < 2 ? word : Number(word)));
 if (!scan || !(switches >= kSamples) || !(minutes >= 0)) {
-  console.error(`usage: endurance.mjs BIN_FOLDER MODEL [SWITCHES [MINUTES]]   SWITCHES at least ${kSamples}`);
+  console.error(`Usage: endurance.mjs BIN_FOLDER MODEL [SWITCHES [MINUTES]]   SWITCHES at least ${kSamples}`);
   process.exit(2);
 }
 
@@ -46,7 +46,7 @@ try {
 }
 
 /**
- * Adds a second viewer that shows only its base mesh. Otherwise the worker would stop when the
+ * Adds a second viewer that shows only its base mesh, so that the worker does not stop when the
  * first viewer changes its model.
  */
 async function companion({ page }, src) {
@@ -98,7 +98,7 @@ function turn({ page }) {
   });
 }
 
-/** Moves the camera along all orbits, repeatedly for `milliseconds`, but at least once. */
+/** Moves the camera through all orbits at least once, and repeats this for `milliseconds`. */
 async function lookAround(viewer, milliseconds) {
   const end = performance.now() + milliseconds;
   do {

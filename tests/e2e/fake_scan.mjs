@@ -26,7 +26,7 @@ export class FakeScan {
     this.record.points = points.length / 3;
   }
 
-  /** Resolves when the page has polled the scan another `times` times. */
+  /** Resolves when the page has polled the scan `times` more times. */
   asked(times = 1) {
     return new Promise((resolve) => this.#waiting.push({ at: this.#asked + times, resolve }));
   }

@@ -43,8 +43,8 @@ after(async () => {
 
 /**
  * The kinds of hosts. Each function returns the viewer's attributes, and `chunks`, which is true if
- * the viewer must request the daemon's chunk URLs. `page` is the host of the page; without it, the
- * host is `hosts.page`.
+ * the viewer must request the daemon's chunk URLs. `page` is the static host that serves the page;
+ * the default is `hosts.page`.
  */
 const kHosts = {
   "the daemon by WebSocket": () => ({ src: api, transport: "ws", chunks: false }),

@@ -43,8 +43,8 @@ after(async () => {
 });
 
 /**
- * Sends a request on the HTTP/2 connection, on which others may be under way, and returns the whole response. nginx ends
- * a connection after 1,000 requests (keepalive_requests); a new one takes its place.
+ * Sends a request on the HTTP/2 connection, which may have other requests in progress. Returns the whole response. nginx ends
+ * a connection after 1,000 requests (keepalive_requests). The next request then opens a new connection.
  */
 async function ask(path, fields = {}) {
   if (session.closed) session = http2.connect(nginx.url, { ca });

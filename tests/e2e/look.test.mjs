@@ -46,9 +46,9 @@ async function open(name, attributes = {}) {
 }
 
 /**
- * Returns what the canvas shows: `brightness`, the mean brightness of the opaque pixels (0 to 255);
- * `colour`, the largest difference between red and blue in an opaque pixel; and `shaded`, the
- * number of dark, partly transparent pixels. Such pixels belong to the shadow or to edges.
+ * Returns values of the canvas. `brightness` is the mean brightness of the opaque pixels (0 to
+ * 255). `colour` is the largest difference between red and blue in an opaque pixel. `shaded` is the
+ * number of dark, partly transparent pixels, which belong to the shadow or to edges.
  */
 async function seen(viewer) {
   await viewer.frames();

@@ -43,8 +43,8 @@ after(async () => {
 });
 
 /**
- * Clicks points. Each is given by its offset from the ball's centre on the screen, to the right and
- * upwards, in radii.
+ * Clicks points. Each point is [x, y]: its offsets from the ball's centre on the screen, to the
+ * right and upwards, in radii of the ball.
  */
 async function click(...points) {
   const box = await page.locator("canvas").boundingBox();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the memory of a page with viewers: JavaScript heaps and arrays of page and worker, WebAssembly memory, the
-// number of WebGL objects, and the bytes of WebGL buffers and pictures.
+// Measures the memory of a page with viewers: the JavaScript heaps and arrays of page and worker, and the WebAssembly
+// memory. Also counts the WebGL objects, and the bytes of WebGL buffers and pictures.
 import { once } from "node:events";
 
 /**

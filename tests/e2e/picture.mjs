@@ -6,7 +6,7 @@ import { ViewerPage, launch } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
 
 const [bin, model, out] = process.argv.slice(2);
-if (!out) throw new Error("usage: picture.mjs BIN MODEL OUT.png");
+if (!out) throw new Error("Usage: picture.mjs BIN MODEL OUT.png");
 
 const daemon = await Daemon.start(bin);
 const browser = await launch();

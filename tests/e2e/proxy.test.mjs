@@ -52,12 +52,14 @@ async function get(url, options) {
 }
 
 /**
- * An origin that forwards requests to the daemon. It sets the times that Cache-Control gives to
- * shared caches to `seconds`, so that a test decides whether they expire.
+ * An origin that forwards requests to the daemon. It sets the lifetimes for shared caches in
+ * Cache-Control (s-maxage, stale-while-revalidate) to `seconds`, so that a test decides whether
+ * responses expire.
  */
 class OtherOrigin {
   bytes = 0; // total size of the bodies with status 200
   confirmed = 0; // number of responses with status 304
+  fault = undefined; // if set, the HTTP status of all responses
 
   static async start(to, seconds) {
     const origin = new OtherOrigin();
@@ -68,6 +70,7 @@ class OtherOrigin {
   }
 
   async #forward(to, seconds, { url, method, headers }, response) {
+    if (this.fault) return response.writeHead(this.fault).end();
     const request = http.request({ host: "127.0.0.1", port: to, path: url, method, headers, agent: false }).end();
     const [answer] = await once(request, "response");
     const body = Buffer.concat(await answer.toArray());
@@ -97,7 +100,10 @@ async function change(verb) {
   return fetch(`${daemon.url}/api/v1/models/${id}/${verb}`, { method: "POST", headers: { Authorization: `Bearer ${token}` } });
 }
 
-/** Waits until the daemon has counted `count` requests for chunks. The daemon counts a request after sending its last byte. */
+/**
+ * Waits until the daemon has counted `count` requests for chunks. The daemon counts a request after sending the last byte of
+ * the response.
+ */
 async function counted(count) {
   let now;
   do now = await daemon.chunkRequests();
@@ -209,6 +215,45 @@ test("browsers keep to HTTPS, and other host names get no answer", async () => {
   await assert.rejects(from(http.get, plain, { headers }), { code: "ECONNRESET" });
 });
 
+test("one address has a bounded number of requests under way", async () => {
+  const origin = createServer(() => undefined).listen(0, "127.0.0.1");
+  await once(origin, "listening");
+  const front = await Nginx.start([`127.0.0.1:${origin.address().port}`], [["limit_conn vitrine_addresses 200;", "limit_conn vitrine_addresses 2;"]]);
+  try {
+    const options = { ca: await readFile(front.certificate), agent: false };
+    for (let i = 0; i < 2; ++i) {
+      https.get(front.url, options).on("error", () => undefined);
+      await once(origin, "request");
+    }
+    assert.equal((await get(front.url, options)).status, 429);
+  } finally {
+    origin.closeAllConnections();
+    origin.close();
+    await front.stop();
+  }
+});
+
+test("an IPv6 visitor counts by the network, whose addresses are all the visitor's", async () => {
+  const origin = createServer(() => undefined).listen(0, "127.0.0.1");
+  await once(origin, "listening");
+  const front = await Nginx.start([`127.0.0.1:${origin.address().port}`], [
+    ["limit_conn vitrine_addresses 200;", "limit_conn vitrine_addresses 1; set_real_ip_from 127.0.0.1; real_ip_header X-Visitor;"]]);
+  try {
+    const ca = await readFile(front.certificate);
+    const from = (address) => ({ ca, agent: false, headers: { "X-Visitor": address } });
+    for (const address of ["2001:db8:0:1::a0a", "2001:db8:0:2::1", "192.0.2.1", "192.0.2.2"]) {
+      https.get(front.url, from(address)).on("error", () => undefined);
+      await once(origin, "request");
+    }
+    for (const address of ["2001:db8:0:1:ffff::2", "2001:db8:0:2::1", "192.0.2.1"])
+      assert.equal((await get(front.url, from(address))).status, 429, address);
+  } finally {
+    origin.closeAllConnections();
+    origin.close();
+    await front.stop();
+  }
+});
+
 test("a stream passes through, down to the last triangle", async () => {
   const [through, past] = ["through.ply", "past.ply"].map((name) => join(folder, name));
   await vitrine("fetch", `${nginx.url}/models/${id}`, "--force", "-o", through);
@@ -258,6 +303,28 @@ test("a copy is confirmed without content once its time is over, and gone after 
     assert.equal(status, 404);
     assert.equal((await change("publish")).status, 200);
     assert.deepEqual((await get(url, options)).body, first.body);
+  } finally {
+    await front.stop();
+    await hasty.stop();
+  }
+});
+
+test("a copy whose time is over is served while the origin is overloaded, but not once the origin has found damage", async () => {
+  const hasty = await OtherOrigin.start(daemon.port, 1);
+  const front = await Nginx.start([`127.0.0.1:${hasty.port}`]);
+  try {
+    const url = `${front.url}/api/v1/chunks/${chunks.at(-1)}`;
+    const options = { ca: await readFile(front.certificate), agent: false };
+    assert.equal((await get(url, options)).status, 200);
+    hasty.fault = 503;
+    let answer;
+    do answer = await get(url, options);
+    while (answer.headers["x-cache"] !== "STALE");
+    assert.equal(answer.status, 200);
+    hasty.fault = 500;
+    do answer = await get(url, options);
+    while (answer.status === 200);
+    assert.equal(answer.status, 500);
   } finally {
     await front.stop();
     await hasty.stop();

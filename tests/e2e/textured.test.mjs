@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows a ball with a striped picture, which the colours of its vertices alone could not show.
+// Tests models with a picture, on a ball with stripes that vertex colours alone could not show.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdir, readFile } from "node:fs/promises";

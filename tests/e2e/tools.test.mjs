@@ -53,7 +53,7 @@ async function cameraOf(viewer) {
 
 /**
  * Makes the viewer reset itself, as in a kiosk whose visitor has left, and waits for the reset.
- * Before, the light must not be the initial one.
+ * Before the call, the light must differ from the initial light.
  */
 async function idle({ page }) {
   await page.locator("progressive-mesh").evaluate((element) => element.setAttribute("idle-reset", "0.1"));

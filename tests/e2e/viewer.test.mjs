@@ -181,7 +181,8 @@ test("an open surface is seen from behind, too", async () => {
 
 test("is drawn whatever display the page gives the element", async () => {
   const viewer = await ViewerPage.open(browser, pages.plain);
-  // The page's policy forbids style elements, but not scripts that set properties.
+  // The page's content security policy forbids style elements, but scripts may set style
+  // properties.
   const style = (text) => viewer.page.locator("progressive-mesh").evaluate((element, css) => void (element.style.cssText = css), text);
   await viewer.events("first-paint");
   for (const display of ["block", "inline-block", "grid"]) {
@@ -200,7 +201,7 @@ test("a page for a narrow, dark screen shows the whole model", async () => {
   const viewer = await ViewerPage.open(browser, pages.coloured, { colorScheme: "dark", width: 360, height: 640 });
   await viewer.releaseLayers();
   await viewer.events("load");
-  // Waits for the title, because the layout changes when it arrives.
+  // Waits for the title, because the layout changes when the title arrives.
   await viewer.page.getByRole("heading", { name: "Demosthenes, coloured" }).waitFor();
   await viewer.page.screenshot({ path: join(pictures, "narrow-dark.png"), animations: "disabled" });
   const overflow = await viewer.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
@@ -264,8 +265,8 @@ test("says so when the page forbids its worker", async () => {
 });
 
 /**
- * Opens a page and waits until all requested detail is shown. That is the whole model, unless
- * `attributes` request less.
+ * Opens a page and waits until all requested detail is shown. By default, the page requests the
+ * whole model; `attributes` may request less.
  */
 async function refined(url, attributes) {
   const viewer = await ViewerPage.open(browser, url, { attributes });

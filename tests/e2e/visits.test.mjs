@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visits a model on a page of another site and leaves it; the console then shows the visit.
+// Tests the counts of visits: a visitor views a model on a page of another site and leaves the
+// page. The console then shows the visit.
 // Environment: VITRINE_BIN, VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { mkdir, readFile } from "node:fs/promises";

@@ -81,7 +81,7 @@ constexpr std::array<std::uint8_t, 38> kFlatNormal = {
     0x50, 0x38, 0x4c, 0x11, 0x00, 0x00, 0x00, 0x2f, 0x00, 0x00, 0x00, 0x00, 0x07,
     0x50, 0xc0, 0x02, 0xf6, 0xbf, 0xff, 0x81, 0x88, 0xe8, 0x7f, 0x00, 0x00};
 
-// Adds two pictures to a textured model: one in the head, and one behind the chunks.
+// Adds two pictures to a textured model: one in the file's head, and one after the chunks.
 StoredModel with_pictures(StoredModel model) {
   model.manifest = parse_header(model.file).value();
   const std::span<const std::uint8_t> before(model.file);

@@ -21,9 +21,9 @@ std::vector<GoldenModel> golden_models();
 
 StoredModel stored(const GoldenModel& golden);
 
-// Returns one line per level. It has the level's number, its counts of vertices and faces, and the
-// SHA-256 of its canonical surface. If the model has a texture, a second SHA-256 covers the
-// positions and texture coordinates of the faces (face_set.h). Numbers are hashed as 32-bit
+// Returns one line per level: the level's number, its numbers of vertices and faces, and the
+// SHA-256 of its surface in canonical order. If the model has a texture, a second SHA-256 covers
+// the positions and texture coordinates of the faces (face_set.h). Numbers are hashed as 32-bit
 // little-endian integers. Returns an error message if the file is damaged.
 std::string level_digests(std::span<const std::uint8_t> file);
 

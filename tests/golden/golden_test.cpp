@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that the committed files decode to the committed surfaces at every level. The same input
-// must also be encoded to the same bytes, because the format of a released version does not change.
+// Tests that the committed files decode to the committed surfaces at every level. Also tests that
+// encoding the same input gives the same bytes, because the format of a released version must not
+// change.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -18,7 +19,8 @@ std::vector<std::uint8_t> golden_file(const std::string& name) {
   return file_bytes(kFolder + name);
 }
 
-// Also tests the files in the folder `earlier`, for which an older encoder chose other collapses.
+// Also tests the files in the folder `earlier`. An older encoder wrote them and chose other edge
+// collapses.
 TEST(Golden, FilesDecodeToTheSameSurfaceAtEveryLevel) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder)) {

@@ -6,7 +6,7 @@
 #include "golden/golden_models.h"
 
 int main(int argc, char** argv) {
-  if (argc != 2) return std::puts("usage: golden_writer FOLDER"), 2;
+  if (argc != 2) return std::puts("Usage: golden_writer FOLDER"), 2;
   const std::string folder = argv[1];
   for (const auto& golden : vitrine::test::golden_models()) {
     const auto model = vitrine::test::stored(golden);

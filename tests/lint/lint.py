@@ -103,9 +103,9 @@ PUBLIC_HEADER = Path("codec/vitrine.h")  # includes the modules that users of th
 # The headers whose inclusion shows that a source uses a library of ARCHITECTURE.md.
 LIBRARIES = {"Aravis": "arv", "Boost": "boost/", "CURL": "curl/", "Draco": "draco/", "Embree": "embree3/", "LibArchive": "archive",
              "OpenCV": "opencv2/", "OpenMesh": "OpenMesh/", "OpenSSL": "openssl/", "PNG": "png.h", "PostgreSQL": "libpq-fe.h",
-             "SQLite": "sqlite3.h", "TurboJPEG": "turbojpeg.h", "WebP": "webp/", "ZLIB": "zlib.h", "fmt": "fmt/", "libsystemd": "systemd/", "libusb": "libusb.h",
-             "meshoptimizer": "meshoptimizer.h", "nlohmann-json": "nlohmann/", "pugixml": "pugixml.hpp", "seccomp": "seccomp.h",
-             "threads": ("thread", "future"), "tl-expected": "tl/", "umockdev": "umockdev.h"}
+             "SQLite": "sqlite3.h", "TIFF": "tiffio.h", "TurboJPEG": "turbojpeg.h", "WebP": "webp/", "ZLIB": "zlib.h", "fmt": "fmt/", "libsystemd": "systemd/", "libusb": "libusb.h",
+             "meshoptimizer": "meshoptimizer.h", "nlohmann-json": "nlohmann/", "pugixml": "pugixml.hpp", "seccomp": "seccomp.h", "stb": "stb/",
+             "assimp": "assimp/", "threads": ("thread", "future"), "tl-expected": "tl/", "umockdev": "umockdev.h"}
 
 
 class Module:
@@ -209,21 +209,47 @@ def words(root):
                     yield path, number, f'"{found[0].strip()}": {instead}'
 
 
+# Names that say nothing on their own. At most one type each has such a name; others say of what they are the part or the kind.
+BARE_NAMES = "Part|View|Target|Kind|Fault|Connection|Axis|Box|Place"
+BARE_TYPE = re.compile(rf"\s*(?:export )?(?:struct|class|enum|enum class|interface|type|using) ({BARE_NAMES})\b(?!;)")
+
+
 def types(root):
-    """Reports types with the same full name, because the linker would mix up their members."""
-    seen = {}
+    """Reports types with the same full name, because the linker would mix up their members, and a bare name of two types."""
+    seen, bare = {}, {}
     for path in files(root):
-        if path.suffix != ".h" or path.parts[0] not in {"codec", "acquisition", "server"}:
+        if not is_source(path) or path.parts[0] not in {"codec", "acquisition", "server", "web", "tests"}:
             continue
-        space = ""
-        for number, line in enumerate(text(root, path).splitlines(), 1):
-            if opened := re.match(r"namespace ([\w: ]+) \{", line):
-                space = opened[1]
-            defined = re.match(r"(?:struct|class|enum class) (\w+)(?: final)?(?: : .*)? \{", line)
-            if defined and (name := f"{space}::{defined[1]}") in seen:
-                yield path, number, f"{name} is a type of {seen[name]} already"
-            elif defined:
-                seen[name] = path
+        lines = text(root, path).splitlines()
+        if path.suffix == ".h" and path.parts[0] not in {"web", "tests"}:
+            yield from same_full_names(path, lines, seen)
+        for number, line in enumerate(lines, 1):
+            if (defined := BARE_TYPE.match(line)) and (other := bare.setdefault(defined[1], f"{path}:{number}")) != f"{path}:{number}":
+                yield path, number, f"{defined[1]} is the name of a type in {other} already; say of what"
+
+
+def same_full_names(path, lines, seen):
+    space = ""
+    for number, line in enumerate(lines, 1):
+        if opened := re.match(r"namespace ([\w: ]+) \{", line):
+            space = opened[1]
+        defined = re.match(r"(?:struct|class|enum class) (\w+)(?: final)?(?: : .*)? \{", line)
+        if defined and (name := f"{space}::{defined[1]}") in seen:
+            yield path, number, f"{name} is a type of {seen[name]} already"
+        elif defined:
+            seen[name] = path
+
+
+MOVED_ERROR = re.compile(r"std::move\(\w+(?:\.error\(\)\)|\)\.error\(\))")
+
+
+def errors(root):
+    """Reports errors that are not passed up in the one spelling that CONTRIBUTING.md states."""
+    for path in files(root):
+        if path.suffix in {".cpp", ".h"}:
+            for number, line in enumerate(text(root, path).splitlines(), 1):
+                if MOVED_ERROR.search(line):
+                    yield path, number, "an error that is moved; write tl::unexpected(result.error())"
 
 
 FORMAT_TABLES = (Path("codec/import/formats.h"), Path("codec/export/write_mesh.h"))
@@ -233,28 +259,46 @@ EXTENSION_LIST = re.compile(r"(?<!\w)\.?(?:[a-z0-9]{3,4}(?:,|, |\"?, \"|\|)\.?){
 
 
 def formats(root):
-    """Reports lists of three or more mesh formats that differ from the tables. Other names, such as PMESH and ZIP, may be among them."""
+    """Reports lists of four or more mesh formats that are not those of a table, in its order. Other names, such as PMESH and ZIP, may be
+    among them. A list of extensions in code may have an order of its own, such as that of a menu."""
     tables = {path: FORMAT_ROW.findall(text(root, path)) for path in FORMAT_TABLES if (root / path).exists()}
     yield from ((path, 1, "has no row with .name and .extension") for path, rows in tables.items() if not rows)
-    names = [{name for name, _ in rows} for rows in tables.values()]
-    extensions = [{extension for _, extension in rows} for rows in tables.values()]
+    names = [[name for name, _ in rows] for rows in tables.values()]
+    extensions = [[extension for _, extension in rows] for rows in tables.values()]
     for path in files(root):
         if path in tables or path.parts[0] == "tests" or path.name == "CHANGELOG.md" or not (is_code(root, path) or path.suffix == ".md"):
             continue
         for number, line in enumerate(text(root, path).splitlines(), 1):
             for pattern, known in ((NAME_LIST, names), (EXTENSION_LIST, extensions)):
                 for found in pattern.finditer(line):
-                    listed = set(re.findall(r"[A-Za-z0-9]{3,5}", found[0])) & set().union(*known)
-                    if len(listed) > 3 and listed not in known:
-                        yield path, number, f'"{found[0]}" lists other formats than the tables in {", ".join(map(str, tables))}'
+                    listed = [word for word in re.findall(r"[A-Za-z0-9]{3,5}", found[0]) if word in set().union(*known)]
+                    has_own_order = pattern is EXTENSION_LIST and path.suffix != ".md"
+                    is_known = any(listed == table or (has_own_order and set(listed) == set(table)) for table in known)
+                    if len(listed) > 3 and not is_known:
+                        yield path, number, f'"{found[0]}" lists other formats, or in another order, than the tables in {", ".join(map(str, tables))}'
 
 
-RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, modules, types, formats, words)}
+# How each kind of test says that it is skipped.
+SKIPS = re.compile(r"\bGTEST_SKIP\(|\bskipUnless\(|\bskipIf\(|\bskipTest\(|\bSKIPPED = 77$|\breturn \{ skip:", re.MULTILINE)
+
+
+def skips(root):
+    """A test that skips itself must fail instead if VITRINE_NO_SKIPS is set, so that no part goes untested unnoticed."""
+    for path in files(root):
+        if not path.is_relative_to("tests") or path.is_relative_to("tests/lint") or not is_code(root, path):
+            continue
+        content = text(root, path)
+        found = SKIPS.search(content)
+        if found and "VITRINE_NO_SKIPS" not in content:
+            yield path, content[:found.start()].count("\n") + 1, "a skipped test that VITRINE_NO_SKIPS does not make fail"
+
+
+RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, modules, types, errors, formats, words, skips)}
 
 
 def main():
     if len(sys.argv) < 2 or sys.argv[1] not in RULES:
-        sys.exit("usage: lint.py " + "|".join(RULES) + " [ROOT]")
+        sys.exit("Usage: lint.py " + "|".join(RULES) + " [ROOT]")
     root = Path(sys.argv[2] if len(sys.argv) > 2 else ".").resolve()
     faults = [f"{path}:{line}: {fault}" for path, line, fault in RULES[sys.argv[1]](root)]
     print("\n".join(faults) or f"{sys.argv[1]}: clean")

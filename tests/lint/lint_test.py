@@ -36,7 +36,7 @@ class Lint(unittest.TestCase):
         self.assertIn(words, result.stdout)
 
     def test_a_clean_tree_passes_every_rule(self):
-        for rule in ("spdx", "length", "unfinished", "headers", "top", "modules", "types", "formats"):
+        for rule in ("spdx", "length", "unfinished", "headers", "top", "modules", "types", "errors", "formats"):
             result = self.run_rule(rule)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
@@ -63,14 +63,31 @@ class Lint(unittest.TestCase):
             self.write(f"codec/{module}/b.h", SPDX + "#pragma once\nnamespace vitrine {\nstruct B {\n};\n}\n")
         self.assert_fault("types", "codec/mesh/b.h:4: vitrine::B is a type of codec/core/b.h already")
 
+    def test_a_bare_name_of_two_types_is_named(self):
+        self.write("codec/core/b.h", SPDX + "#pragma once\nstruct Part;\nclass B {\n  struct Part {\n  };\n};\n")
+        self.assertEqual(self.run_rule("types").returncode, 0)
+        self.write("web/src/b.ts", SPDX + "export interface Part {\n}\n")
+        self.assert_fault("types", "web/src/b.ts:2: Part is the name of a type in codec/core/b.h:5 already")
+
+    def test_an_error_that_is_moved_is_named(self):
+        for spelling in ("std::move(ok.error())", "std::move(ok).error()"):
+            self.write("codec/core/b.cpp", SPDX + f"  if (!ok) return tl::unexpected({spelling});\n")
+            self.assert_fault("errors", "codec/core/b.cpp:2: an error that is moved")
+
     def test_a_list_of_formats_that_lacks_one_is_named(self):
         self.write("codec/import/formats.h", SPDX + "".join(f'{{.name = "{name}",\n .extension = "{name.lower()}"}},' for name in ("PLY", "OBJ", "STL", "OFF", "GLB")))
         self.write("codec/README.md", "Reads PLY, OBJ, STL, OFF and GLB: .ply,.obj,.stl,.off,.glb,.pmesh\n")
         self.assertEqual(self.run_rule("formats").returncode, 0)
+        self.write("codec/README.md", "Reads OBJ, PLY, STL, OFF and GLB.\n")
+        self.assert_fault("formats", "in another order")
         self.write("codec/README.md", "Reads PLY, OBJ, STL and OFF.\n")
         self.assert_fault("formats", "codec/README.md:1:")
         self.write("codec/README.md", "accept: .ply,.obj,.stl,.off\n")
         self.assert_fault("formats", "codec/README.md:1:")
+
+    def test_a_test_that_is_skipped_unnoticed_is_named(self):
+        self.write("tests/a_test.py", "SKIPPED = 77\nsys.exit(SKIPPED if not tool else 0)\n")
+        self.assert_fault("skips", "tests/a_test.py:1: a skipped test")
 
     def test_unfinished_work_is_named(self):
         self.write("codec/core/b.cpp", SPDX + "// TO" + "DO later\n")

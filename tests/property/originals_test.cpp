@@ -17,7 +17,7 @@
 namespace vitrine::test {
 namespace {
 
-// Returns a finite float. It has random bits, or is a value that may occur in a real file.
+// Returns a finite float: random bits, or a value that may occur in a real file.
 float random_float(Dice& dice) {
   const auto any = std::bit_cast<float>(static_cast<std::uint32_t>(dice.bits()));
   if (dice.one_in(3) && std::isfinite(any)) return any;
@@ -62,8 +62,8 @@ Material random_material(Dice& dice, std::size_t pictures, std::size_t sets) {
   return material;
 }
 
-// Returns a texturing in which the corners at a vertex usually have the same coordinates. A few
-// have others, as at seams.
+// Returns a random texturing. Usually, all corners at a vertex have the same coordinates. A few
+// corners have other coordinates, as at seams.
 Texturing random_texturing(const LatticeMesh& mesh, Dice& dice) {
   Texturing out;
   const std::size_t sets = 1 + dice.below(2), pictures = 1 + dice.below(4);
@@ -97,7 +97,8 @@ Refiner refined(const StoredModel& model) {
   return refiner;
 }
 
-// Adds originals to the model: `texturing`, whose faces are those of `mesh`.
+// Stores `texturing` in the model as the original materials and texture coordinates. The faces of
+// `texturing` are in the order of mesh.faces.
 StoredModel with_originals(StoredModel model, const LatticeMesh& mesh, const Texturing& texturing) {
   const auto begin = model.file.begin() + static_cast<std::ptrdiff_t>(model.manifest.base_offset);
   std::vector<std::uint8_t> body(begin, model.file.end());

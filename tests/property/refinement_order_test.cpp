@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that chunks give the same mesh in every order that the region rule permits. Also tests that
-// their vertex splits can be undone.
+// Tests that every permitted order of chunks gives the same mesh. A chunk may be applied once its
+// region and all adjacent regions have the previous level. Also tests that vertex splits can be
+// undone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,8 +38,8 @@ void expect_manifold(const Refiner& refiner) {
   ASSERT_EQ(closed->loop_count(), refiner.connectivity().loop_count());
 }
 
-// Refines a model in a random order. If an earlier order reached the same set of chunks, the
-// surface must be the same. `known` holds the surface of each set of chunks.
+// Applies all chunks in a random order. `known` holds the surface of each set of chunks that an
+// earlier order reached. If this order reaches the same set, its surface must be the same.
 void refine_at_random(const StoredModel& model, Dice& dice,
                       std::map<std::vector<bool>, SurfaceFaces>& known) {
   Refiner refiner = start_refiner(model);
@@ -93,7 +94,7 @@ TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
 }
 
 // Returns the surface with its positions rounded to cells of `level`. A chunk adds lower bits to
-// the positions, which an undo does not clear; rounding drops them.
+// the positions. Undoing the chunk does not clear these bits, but rounding does.
 SurfaceFaces surface_in_cells(const Refiner& refiner, std::uint32_t level) {
   LatticeMesh mesh = refiner.lattice_mesh();
   for (Vec3i& p : mesh.positions)
@@ -101,8 +102,8 @@ SurfaceFaces surface_in_cells(const Refiner& refiner, std::uint32_t level) {
   return canonical_surface(mesh);
 }
 
-// Applies the first `chunks` chunks in file order. Then undoes a part of the last chunk, and
-// finally all of it. The surface must then be the same as before the last chunk.
+// Applies the first `chunks` chunks in file order. Then undoes a part of the last chunk, and then
+// all of it. The surface must then be the same as before the last chunk.
 void expect_undo(const StoredModel& model, Dice& dice, std::size_t chunks) {
   Refiner refiner = start_refiner(model);
   for (std::size_t i = 0; i + 1 < chunks; ++i)
@@ -114,7 +115,7 @@ void expect_undo(const StoredModel& model, Dice& dice, std::size_t chunks) {
   const std::uint32_t wanted = coarse + dice.below(refiner.face_count() - coarse + 1);
   refiner.undo_to_faces(wanted);
   ASSERT_LE(refiner.face_count(), wanted);
-  // A split adds at most two faces. A component adds at most two faces per vertex.
+  // A split adds at most two faces. An inserted component adds at most two faces per vertex.
   const std::uint32_t most = model.manifest.chunks[chunks - 1].inserted > 0 ? 2 * kMostInserted : 2;
   ASSERT_GT(refiner.face_count() + most, wanted);
   expect_manifold(refiner);

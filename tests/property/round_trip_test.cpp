@@ -10,8 +10,8 @@
 namespace vitrine::test {
 namespace {
 
-// Returns random options with a small base and small regions, so that even small meshes have
-// several levels and forks.
+// Returns random options with a small base mesh and small regions. Even small meshes then have
+// several levels, and often several regions.
 SimplifyOptions random_options(Dice& dice) {
   return {.placement = dice.one_in(2) ? Placement::kPyramid : Placement::kMidpoint,
           .order = dice.one_in(4) ? CollapseOrder::kHeap : CollapseOrder::kBatch,

@@ -95,7 +95,8 @@ TEST(TextureCoordinates, ALatticeOfCoordinatesIsFoundAndSavesItsBits) {
   EXPECT_LT(coarse, exact - wedges);
 }
 
-// Every corner of a real face has a wedge of its vertex; other corners have none.
+// A wedge holds the texture coordinates of one or more corners at a vertex. Expects that every
+// corner of a real face has a wedge of its vertex, and that all other corners have none.
 void expect_wedges(const Refiner& refiner) {
   const Connectivity& mesh = refiner.connectivity();
   const Wedges& wedges = refiner.wedges();
@@ -109,8 +110,8 @@ void expect_wedges(const Refiner& refiner) {
   }
 }
 
-// Refines a model in a random order. If an earlier order reached the same set of chunks, the
-// coordinates must be the same. `known` holds the faces of each set of chunks.
+// Applies all chunks in a random order. `known` holds the faces of each set of chunks that an
+// earlier order reached. If this order reaches the same set, its coordinates must be the same.
 void refine_textured_at_random(const StoredModel& model, Dice& dice,
                                std::map<std::vector<bool>, TexturedFaces>& known) {
   Refiner refiner = start_refiner(model);
@@ -160,7 +161,7 @@ TEST(TextureCoordinates, DoNotChangeTheSurface) {
 }
 
 // Applies the first `chunks` chunks in file order, then undoes a part of the last chunk, and then
-// all of it. The coordinates must then be those before the last chunk.
+// all of it. The texture coordinates must then be the same as before the last chunk.
 void expect_coordinates_undone(const StoredModel& model, Dice& dice, std::size_t chunks) {
   Refiner refiner = start_refiner(model);
   for (std::size_t i = 0; i + 1 < chunks; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views text as bytes, and copies bytes to text.
+// Converts text to a view of its bytes, and bytes to text.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,7 @@
 namespace vitrine::test {
 
 std::size_t heap_bytes();       // bytes in use now
-std::size_t peak_heap_bytes();  // most bytes in use at a time since start_peak()
+std::size_t peak_heap_bytes();  // largest number of bytes in use since start_peak()
 void start_peak();
 std::size_t allocations();  // allocations since the program started
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scanner without devices. Its scans are profiles of a tube. A scan's folder has one line per
-// step, so that a scan survives a restart. A test can hold a scan at a step, or let it fail there.
+// step, so that a scan survives a restart. A test can hold a scan at a step, or let the step fail.
 #pragma once
 
 #include <atomic>
@@ -240,7 +240,7 @@ class FakeBackend final : public ScannerBackend {
 class HeldAtStep {
  public:
   explicit HeldAtStep(FakeScanner& world, int at) {
-    // The function shares the door, because it may run after this object is destroyed.
+    // The function shares `door_`, because it may run after this object is destroyed.
     world.before_step = [door = door_, at](int step) -> std::optional<Error> {
       std::unique_lock lock(door->mutex);
       if (step != at || door->open) return std::nullopt;

@@ -17,8 +17,8 @@ struct HeapBound {
 // for the parsed header.
 inline constexpr HeapBound kDecodingHeap{1 << 20, 2'500};
 
-// The bound for a textured model. A split of valence 24 may save 24 wedges of 12 bytes for its
-// undo, and a face may have three wedges of its own.
+// The bound for a textured model. To undo a split of valence 24, the refiner may save 24 wedges of
+// 12 bytes. A face may have three wedges of its own.
 inline constexpr HeapBound kDecodingTextureHeap{1 << 20, 9'500};
 
 // The bound in base_decoder.h, plus the memory for error messages.
@@ -29,5 +29,7 @@ inline constexpr std::size_t kReaderAlways = 8 << 10;
 inline constexpr HeapBound kReadingHeap{kReaderAlways, 64};
 inline constexpr HeapBound kReadingGlbHeap{kReaderAlways, 128};
 inline constexpr HeapBound kReadingCompressedHeap{kReaderAlways, 128 * 1'025};
+// The bound for FBX, plus the memory of Assimp's importers.
+inline constexpr HeapBound kReadingFbxHeap{1 << 19, 128 * 1'025};
 
 }  // namespace vitrine::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes a base mesh with the Draco library, as the peer of the codec's own reader.
+// Decodes a base mesh with the Draco library, for a comparison with the codec's own reader.
 #pragma once
 
 #include <cstdint>

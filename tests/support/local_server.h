@@ -31,6 +31,7 @@ class LocalServer {
                 log_,
                 folder_.path(),
                 VITRINE_BIN_DIR "/vitrined",
+                no_reserve,
                 std::chrono::seconds(10),
                 [this](JobRun& run) { return publishing_.work(run); },
                 &quota_,
@@ -67,6 +68,7 @@ class LocalServer {
   JobCatalogue& jobs() { return *installation_.jobs; }
   Catalogue& catalogue() { return *installation_.catalogue; }
   Collector& collector() { return collector_; }
+  Scrubber& scrubber() { return scrubber_; }
   Uploads& uploads() { return uploads_; }
   ObjectStore& store() { return *installation_.store; }
   LiveSettings& settings() { return settings_; }
@@ -101,6 +103,7 @@ class LocalServer {
   using NoFaults = Expected<std::vector<std::string>>;
   static constexpr std::uint8_t kPlain[] = {'p', 'l', 'a', 'i', 'n'}, kPacked[] = {'g', 'z'};
   static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}},
+                                        {"/index.html", "text/html; charset=utf-8", {}},
                                         {"/console.html", "text/html; charset=utf-8", {}},
                                         {"/docs.js", "text/javascript", kPlain, kPacked}};
 
@@ -145,7 +148,7 @@ class LocalServer {
                      .visits = visits_,
                      .log = log_,
                      .errors = events_,
-                     .ready = true};
+                     .is_ready = true};
   asio::io_context io_;
   Workers workers_;
   HttpServer server_;

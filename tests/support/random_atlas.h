@@ -9,10 +9,10 @@
 
 namespace vitrine::test {
 
-// Divides the faces of `base` into one to six charts, and cuts some edges inside charts. A wedge
-// has the coordinates of its vertex seen along the z axis, moved by a random offset for each chart.
-// Some atlases have random coordinates instead, with which many faces are turned over or have no
-// area. Wedges are numbered as decode_atlas() numbers them.
+// Divides the faces of `base` into one to six charts, and cuts some edges inside charts. In most
+// atlases, the texture coordinates of a wedge are x and y of its vertex, moved by a random offset
+// for each chart. Some atlases have random coordinates instead, so many faces are turned over or
+// have no area. Wedges are numbered as decode_atlas() numbers them.
 BaseAtlas random_atlas(const BaseMesh& base, std::uint64_t seed);
 
 }  // namespace vitrine::test

@@ -18,7 +18,8 @@ struct ComponentMesh {
 };
 
 Vec3 on_circle(std::uint32_t i, std::uint32_t n, double radius, double z) {
-  // Uses a square instead of a circle. Without libm, the result is the same on every machine.
+  // Uses a square instead of a circle. This needs no libm, so the result is the same on every
+  // machine.
   const double t = 4.0 * i / n, f = t - std::floor(t);
   const int side = static_cast<int>(t);
   const double x[] = {1 - 2 * f, -1, -1 + 2 * f, 1}, y[] = {1, 1 - 2 * f, -1, -1 + 2 * f};
@@ -52,8 +53,8 @@ void add_quad(ComponentMesh& part, std::uint32_t a, std::uint32_t b, std::uint32
   part.faces.push_back({a, c, d});
 }
 
-// Returns a grid of u by v vertices. If one direction wraps, the grid is a tube; if both wrap, a
-// torus.
+// Returns a grid of u by v vertices. If one direction wraps, the grid is a tube. If both directions
+// wrap, it is a torus.
 ComponentMesh grid(std::uint32_t u, std::uint32_t v, bool wrap_u, bool wrap_v) {
   ComponentMesh part;
   for (std::uint32_t j = 0; j < v; ++j) {

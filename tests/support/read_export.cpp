@@ -18,7 +18,7 @@
 namespace vitrine::test {
 namespace {
 
-// Returns the numbers before `end`, whatever separates them.
+// Returns the numbers before `end`. Spaces, commas and parentheses may separate them.
 std::vector<double> numbers_in(std::string text, char end) {
   text.resize(std::min(text.find(end), text.size()));
   std::ranges::replace_if(

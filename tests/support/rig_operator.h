@@ -15,8 +15,8 @@
 
 namespace vitrine::test {
 
-// Sends a command that ends with a line feed. Returns the answer with its line feed; empty if none
-// arrives.
+// Sends a command that ends with a line feed. Returns the answer with its line feed, or an empty
+// text if no answer arrives.
 inline std::string said(const std::filesystem::path& socket, const std::string& command) {
   sockaddr_un name{};
   name.sun_family = AF_UNIX;

@@ -65,8 +65,8 @@ inline Setting at(double degrees, bool laser) {
   return {.degrees = degrees, .is_laser_on = laser};
 }
 
-// Returns the centre of mass of the laser's light in row `v` near column `u`; nullopt if there is
-// too little light to tell.
+// Returns the centre of mass of the laser's light in row `v` near column `u`, or nullopt if there
+// is too little light.
 inline std::optional<double> centre(const Frame& lit, const Frame& dark, int v, double u) {
   double sum = 0, moment = 0;
   const int middle = static_cast<int>(std::lround(u));

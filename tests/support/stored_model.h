@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes a lattice mesh as a `.pmesh` file, without computing error bounds, and refines the stored
-// model again.
+// Encodes a lattice mesh as a `.pmesh` file, without computing error bounds. Also decodes such
+// files by refinement.
 #pragma once
 
 #include <span>
@@ -32,7 +32,7 @@ void apply_chunk(Refiner& refiner, const StoredModel& model, std::size_t chunk);
 std::vector<std::size_t> ready_chunks(const Refiner& refiner);
 
 // canonical_surface() returns the surface in a form that does not depend on the numbering of
-// vertices and faces: for each face, the corners as x y z r g b, starting with the smallest corner.
+// vertices and faces. Each face has its corners as x y z r g b, starting with the smallest corner.
 // The faces are sorted.
 using SurfaceFace = std::array<std::int32_t, 18>;
 std::vector<SurfaceFace> canonical_surface(const LatticeMesh& mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a mesh with a picture, as a reader returns it.
+// Makes a mesh with a picture, as a mesh reader would return it.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace vitrine::test {
 
 // Returns a torus of `around` times `across` quads, with one picture of `side` x `side` pixels. The
-// picture has smooth colours, without opacity below 255.
+// picture has smooth colours and is opaque.
 inline ImportedMesh textured_torus(std::uint32_t around, std::uint32_t across, std::uint32_t side) {
   Picture picture{side, side, {}};
   for (std::uint32_t y = 0; y < side; ++y) {

@@ -8,8 +8,8 @@
 
 namespace vitrine::test {
 
-// Returns a torus of 2 * `around` * `across` faces. Its picture is red on the left, where the first
-// half of the way around the torus is, and green on the right.
+// Returns a torus of 2 * `around` * `across` faces. The left half of its picture is red and belongs
+// to the first half of the way around the torus. The right half is green.
 inline ImportedMesh textured_torus(std::uint32_t around, std::uint32_t across) {
   ImportedMesh out{.mesh = torus(around, across)};
   constexpr std::uint32_t kSide = 64;

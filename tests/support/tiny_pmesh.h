@@ -21,7 +21,7 @@ inline std::vector<std::uint8_t> to_bytes(std::string_view text) {
 }
 
 // If `pictures` is not empty, the model has a texture. Its atlas is the text "the atlas", and its
-// first picture is in the head.
+// first picture is in the file's head.
 inline TinyPmesh tiny_pmesh(std::string_view base_text, std::string_view chunk_text,
                             const std::vector<std::string_view>& pictures = {}) {
   const auto base = to_bytes(base_text), chunk = to_bytes(chunk_text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks all invariants of Connectivity. Tests call it after each mutation.
+// Checks all invariants of Connectivity. Tests call this function after each mutation.
 #pragma once
 
 #include <gtest/gtest.h>

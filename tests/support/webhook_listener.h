@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A server that receives webhooks. Accepts one request at a time, and waits at most 20 s for each.
+// A server that receives webhooks. Accepts one request at a time, and waits at most 60 s for each.
 #pragma once
 
 #include <arpa/inet.h>
@@ -22,7 +22,7 @@ class WebhookListener {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
-    const timeval timeout{.tv_sec = 20, .tv_usec = 0};
+    const timeval timeout{.tv_sec = 60, .tv_usec = 0};
     ::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
     EXPECT_EQ(::listen(socket_.get(), 8), 0);

@@ -16,7 +16,7 @@ struct Start {
   int step, seen;
 };
 
-// Returns the initial state for which the decisions of all chunks need the fewest bits. A state
+// Returns the initial state with which the decisions of all chunks take the fewest bits. A state
 // that has seen n decisions counts as a beta prior of n + 1/2 decisions. If `chunks` is empty,
 // returns the state in which both values are equally likely.
 Start fit_start(const std::vector<BitCounts>& chunks);

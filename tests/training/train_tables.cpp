@@ -42,7 +42,7 @@ class CountingCoder {
   std::unordered_map<const AdaptiveBit*, BitCounts> counts_;
 };
 
-// The decisions of one entropy model's adaptive bits in all chunks.
+// Collects, from all chunks, the decisions of the adaptive bits of one entropy model.
 struct BitStudy {
   std::vector<std::vector<BitCounts>> contexts;
 

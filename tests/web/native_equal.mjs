@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that the native decoder and WebAssembly produce identical bytes. Builds every model with
-// both placement rules, and compares all states from the base mesh to full resolution. node
-// native_equal.mjs VITRINE STATE_HASH DECODER.wasm MODELS GOLDEN
+// both placement rules, and compares all states from the base mesh to full resolution.
+// node native_equal.mjs VITRINE STATE_HASH DECODER.wasm MODELS GOLDEN
 import { execFile } from "node:child_process";
 import { createHash } from "node:crypto";
 import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
@@ -15,7 +15,10 @@ const run = promisify(execFile);
 const [vitrine, stateHash, wasm, models, golden] = process.argv.slice(2);
 const core = await loadCore(wasm);
 
-/** A decoder that also returns lattice coordinates and colours as stored in the file. Pages do not need them. */
+/**
+ * A decoder that also returns lattice coordinates and colours as stored in the file. Pages do not need these
+ * values.
+ */
 class Exact extends core.Decoder {
   get lattice() {
     return this.#ofVertices("lattice_positions", 12);

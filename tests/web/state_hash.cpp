@@ -72,7 +72,7 @@ Expected<void> replay(std::span<const std::uint8_t> file) {
 }  // namespace vitrine
 
 int main(int argc, char** argv) {
-  if (argc != 2) return std::fputs("usage: state-hash FILE.pmesh\n", stderr), 2;
+  if (argc != 2) return std::fputs("Usage: state-hash FILE.pmesh\n", stderr), 2;
   std::ifstream in(argv[1], std::ios::binary);
   const vitrine::Bytes file{std::istreambuf_iterator<char>(in), {}};
   const auto done = vitrine::replay(file);

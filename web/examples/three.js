@@ -20,7 +20,7 @@ meshes.forEach((mesh, i) => {
 scene.add(...meshes);
 camera.position.z = 7;
 
-/** Refines the parts of each model that the camera sees to an error of one pixel. */
+/** Refines the visible parts of each model until their error is at most one pixel. */
 function sharpen() {
   const { width, height } = renderer.domElement;
   for (const mesh of meshes) mesh.refineFor(camera, width, height).catch((error) => console.warn(error.message));

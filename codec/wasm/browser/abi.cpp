@@ -99,8 +99,9 @@ int check_atlas(BrowserModel* model, const std::uint8_t* data, std::uint32_t siz
   return succeeded(model->check_atlas(bytes_at(data, size)));
 }
 
-// Starts at the base mesh, whose SHA-256 must have been checked. `base` holds its Draco buffer and
-// `atlas` its coded atlas, whose size is 0 if the model has no texture.
+// Starts at the base mesh. `base` holds the Draco buffer of the base mesh. `atlas` holds its coded
+// texture coordinates; `atlas_size` is 0 if the model has no texture. The caller must have checked
+// the SHA-256 of both.
 VITRINE_EXPORT(start)
 int start(BrowserModel* model, const std::uint8_t* base, std::uint32_t base_size,
           const std::uint8_t* atlas, std::uint32_t atlas_size) {
@@ -169,8 +170,8 @@ VITRINE_EXPORT(bytes_held) double bytes_held(BrowserModel* model) {
 VITRINE_EXPORT(vertex_count) std::uint32_t vertex_count(BrowserModel* model) {
   return model->displayed_vertices();
 }
-// Returns the displayed vertex from which the last applied chunk made `vertex`. Returns `vertex`
-// itself if that chunk did not make it by a split.
+// Returns the displayed vertex that the last applied chunk split to create `vertex`. Returns
+// `vertex` itself if that chunk did not create it by a split.
 VITRINE_EXPORT(parent_of) std::uint32_t parent_of(BrowserModel* model, std::uint32_t vertex) {
   return model->parent_of(vertex);
 }

@@ -65,7 +65,8 @@ bool add_pages(std::size_t count) {
 bool grow(std::size_t size) {
   const std::size_t there = __builtin_wasm_memory_size(0), pages = size / kPage + 1;
   if (!add_pages(std::max(pages, there / kShare)) && !add_pages(pages)) return false;
-  // A sentinel before the first block is marked as in use, so that merging stops there.
+  // The first call places a sentinel before the first block. The sentinel is marked as in use, so
+  // that merging stops at it.
   if (end == nullptr) {
     const auto base = (reinterpret_cast<std::uintptr_t>(&__heap_base) + kUnit - 1) & -kUnit;
     auto* const front = reinterpret_cast<Block*>(base + kHeader);

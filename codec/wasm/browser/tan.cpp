@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tangent function that replaces that of wasi-libc, which reduces huge angles with more code than
-// the whole planner has. The argument is half a field of view, so it is less than a right angle.
-// For such arguments, Lambert's continued fraction, x / (1 - x^2 / (3 - x^2 / (5 - ...))), has full
+// A tangent function that replaces that of wasi-libc, whose code for huge angles is larger than the
+// whole planner. The argument is half a field of view, so it is less than a right angle. For such
+// arguments, Lambert's continued fraction, x / (1 - x^2 / (3 - x^2 / (5 - ...))), has full
 // precision after thirteen terms.
 #include <cmath>
 

@@ -20,17 +20,17 @@ namespace vitrine::server {
 
 class PartialModel {
  public:
-  // Creates the file or continues the one that an earlier run left. Fails with kIo.
+  // Creates the file, or opens the file that an earlier run left. Fails with kIo.
   static Expected<PartialModel> open(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  // Returns nullopt until the head has arrived.
+  // Returns nullopt until the model's head (Manifest::head_bytes()) has arrived.
   const std::optional<Manifest>& manifest() const { return manifest_; }
   bool holds(std::size_t chunk) const { return held_[chunk]; }
   // Whether picture number `i` of the texture is complete.
   bool holds_picture(std::size_t i) const { return held_pictures_[i]; }
   std::vector<ChunkRange> held_ranges() const;
-  std::uint64_t bytes() const;  // size of the head and of the complete chunks and pictures
+  std::uint64_t bytes() const;  // size of the model's head and of the complete chunks and pictures
   // Returns the finest level that is complete in all regions.
   std::uint32_t level() const;
 
@@ -43,7 +43,7 @@ class PartialModel {
   // hash is wrong.
   Expected<void> add_picture(std::size_t i, std::span<const std::uint8_t> bytes);
 
-  // Whether an optional block is complete. Reads the block from the file to find out.
+  // Whether an optional block is complete. Reads the block from the file and checks its hash.
   bool holds(const OptionalBlock& block) const;
   // Adds an optional block, like add_picture().
   Expected<void> add(const OptionalBlock& block, std::span<const std::uint8_t> bytes);

@@ -14,8 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Largest number of upload bytes per request. It is limited because proxies limit the size of
-// requests.
+// Largest number of upload bytes per request, chosen because proxies limit the size of requests.
 constexpr std::size_t kPiece = 16 << 20;
 constexpr int kTries = 6;  // attempts per request, within 31 seconds
 // interval between two queries of a job's state
@@ -45,8 +44,8 @@ bool may_be_better_soon(const RemoteAnswer& answer) {
   return answer.status == 409 || answer.status == 429 || answer.status >= 500;
 }
 
-// Repeats the request as long as the server cannot be reached or temporarily refuses it, because
-// the server may be restarting. Returns the last result.
+// Sends the request up to kTries times while the server cannot be reached or temporarily refuses
+// it, because the server may be restarting. Returns the last result.
 template <class Ask>
 Expected<RemoteAnswer> with_retries(const Ask& ask) {
   for (int tried = 1;; ++tried) {

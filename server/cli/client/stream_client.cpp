@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 // A connection that stays silent for this long is closed.
 constexpr std::chrono::seconds kResponseTimeout{30};
-// Time without data after which a fetch gives up.
+// A fetch gives up if no data arrives for this long, even after new connections.
 constexpr std::chrono::seconds kReconnectTimeout{30};
 constexpr std::chrono::milliseconds kFirstPause{200}, kLongestPause{3000};
 constexpr std::size_t kMaxServerMessage = 64 * 1024;
@@ -84,7 +84,11 @@ class Fetching {
       co_await timer.async_wait(kNoThrow);
       pause = std::min<std::chrono::milliseconds>(2 * pause, kLongestPause);
     }
-    co_return Fetched{std::move(*model_), elapsed(), received_, promise_};
+    co_return Fetched{.model = std::move(*model_),
+                      .seconds = elapsed(),
+                      .received = received_,
+                      .promise = promise_,
+                      .presentation = presentation_};
   }
 
  private:
@@ -204,6 +208,7 @@ class Fetching {
       return fail(ErrorCode::kBadInput, "the server does not support pmesh.v1; ask its operator");
     }
     sha256_ = opened.sha256;
+    presentation_ = from_stored_text(opened.presentation);
     auto path = options_.out;
     path += "." + sha256_.substr(0, 16) + ".part";
     auto model = PartialModel::open(std::move(path));
@@ -245,6 +250,7 @@ class Fetching {
   const Clock::time_point start_ = Clock::now();
   std::optional<PartialModel> model_;
   std::string sha256_;
+  Presentation presentation_;
   std::optional<PromiseMessage> promise_;
   std::uint64_t received_ = 0;
   std::uint64_t taken_ = 0;  // bytes not acknowledged yet

@@ -65,7 +65,7 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-// Returns the figures of a build as JSON. `m` is the header as read from the file.
+// Describes the result of a build as JSON. `m` is the header as read from the file.
 json describe(const BuildReport& report, const Manifest& m) {
   const auto& [read, simplify, encode, write] = report.seconds;
   return {
@@ -86,8 +86,10 @@ json describe(const BuildReport& report, const Manifest& m) {
 
 std::string as_text(const json& report, const Manifest& manifest, const std::string& out) {
   std::string text;
-  for (const json& repair : report["input"]["repairs"]) {
-    text += fmt::format("repaired: {}\n", repair.get<std::string>());
+  for (const json& line : report["input"]["repairs"]) {
+    const auto repair = line.get<std::string>();
+    const bool is_note = repair.ends_with("no step is needed");  // nothing was lost or changed
+    text += fmt::format("{}: {}\n", is_note ? "note" : "repaired", repair);
   }
   return text + fmt::format("{}: {} bytes, {:.2f} bits per vertex; {}\n\n{}", out,
                             manifest.file_bytes, report["bits_per_vertex"].get<double>(),
@@ -95,8 +97,8 @@ std::string as_text(const json& report, const Manifest& manifest, const std::str
 }
 
 // Checks that all outputs can be written, before the long work begins.
-CommandOutcome check_outputs(const Arguments& arguments) {
-  const std::string path = arguments.operand(0), page = arguments.text("--report");
+CommandOutcome check_outputs(const Arguments& arguments, const std::string& path) {
+  const std::string page = arguments.text("--report");
   std::vector<std::string> outputs = {arguments.text("-o")};
   if (arguments.has("--report")) outputs.push_back(page);
   for (const std::string& out : outputs) {
@@ -114,7 +116,7 @@ CommandOutcome check_outputs(const Arguments& arguments) {
   return {};
 }
 
-// Share of the whole progress that the build takes if a report is made as well.
+// Share of the total progress that the build takes if a report page is made, too.
 constexpr double kBuilt = 0.25;
 
 // Returns a progress report for one part of the work. It converts the part's progress from 0..1 to
@@ -165,7 +167,7 @@ CommandOutcome check_name(const Arguments& arguments) {
       "the output's name must end in .pmesh; vitrine decode then writes meshes from that file");
 }
 
-// Returns the folder for the file that holds data for which memory does not suffice.
+// Returns the folder for the spill file, which holds data that does not fit into memory.
 std::filesystem::path spill_folder(const std::string& out) {
   std::error_code unknown;  // ignored: the path is then empty, and all data stay in memory
   return out == kStandardStream ? std::filesystem::temp_directory_path(unknown) : folder_of(out);
@@ -177,11 +179,13 @@ CommandOutcome build(const Arguments& arguments) {
   if (!format) return tl::unexpected(format.error());
   auto options = read_options(arguments);
   if (!options) return tl::unexpected(options.error());
-  const std::string path = arguments.operand(0), out = arguments.text("-o");
-  if (auto ok = check_outputs(arguments); !ok) return ok;
+  const auto model = ModelPath::of(arguments.operand(0));
+  if (!model) return failed(model.error());
+  const std::string path = model->file, out = arguments.text("-o");
+  if (auto ok = check_outputs(arguments, path); !ok) return ok;
   const auto file = InputFile::open_mesh(path);
   if (!file) return failed(file.error());
-  const CompanionFiles companions(path, file->bytes());
+  const CompanionFiles companions(*model, file->bytes());
   options->reading.beside = companions.contents();
   options->reading.name = path;
 
@@ -219,8 +223,8 @@ constexpr Flag kBuildFlags[] = {
      "place of the vertex of a collapsed edge: midpoint (default; smaller file) or, for "
      "comparison, pyramid (the method of Wang, Li and Li); see codec/README.md"},
     {"--order", "batch|heap",
-     "order of edge collapses: batch, many at once (default; smaller file), or heap, always the "
-     "one of least cost"},
+     "order of edge collapses: batch, many at once (default; smaller file), or heap, one at "
+     "a time, the cheapest first"},
     {"--threads", "N", "number of threads (default: one per core)"},
     {"--report", "OUT.html",
      "also write a page with pictures, a plot of error against bytes, and all levels"},
@@ -237,8 +241,9 @@ const Command kBuild = {
     .name = "build",
     .summary = kBuildSummary,
     .details =
-        "IN may be -, which is standard input. Files that IN names are beside "
-        "it, or in the current folder. With -o -, the result is printed to "
+        "IN may be a folder with one model, or -, which is standard input. Files to which IN "
+        "refers must be in its folder or "
+        "a subfolder; if IN is -, in the current folder. With -o -, the result is printed to "
         "standard error.",
     .operands = kBuildOperands,
     .flags = kBuildFlags,

@@ -55,7 +55,7 @@ Expected<bool> ask_operator(int number) {
   return *line != "done";
 }
 
-// Takes the calibration pictures at the simulated rig, which places the target itself.
+// Takes the calibration pictures at the simulated rig. The rig places the target itself.
 Expected<acquisition::CalibrationInput> picture_at_rig(
     const acquisition::ScannerConfig& config, const acquisition::Scanner& scanner,
     const acquisition::TargetPictureOptions& options, const std::function<void(double)>& progress) {
@@ -180,19 +180,20 @@ constexpr Flag kCalibrateFlags[] = {
      "with --correspondences: axis of the table as {a, b, offset, tilt, clockwise}; see "
      "acquisition/README.md"},
     {"--degree", "auto|2..5",
-     "degree of the polynomial from pixels to mm (default auto: the lowest within 1 % of the least "
-     "cross-validated error)"},
+     "degree of the polynomial from pixels to mm; auto: the lowest whose error over held-out poses "
+     "is at most 1 % above the least (default auto)"},
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace
 
-const Command kCalibrate = {.name = "calibrate",
-                            .summary = "Calibrates a scanner and prints its error in mm.",
-                            .details =
-                                "Asks at the terminal to place the target, a ChArUco board, in one "
-                                "pose after the other; vitrine-rig places its own. With "
-                                "--correspondences and --axis, uses measured points instead.",
-                            .flags = kCalibrateFlags,
-                            .run = run_calibrate};
+const Command kCalibrate = {
+    .name = "calibrate",
+    .summary = "Calibrates a scanner and prints the calibration's error in mm.",
+    .details =
+        "Asks at the terminal to place the target, a ChArUco board, in one "
+        "pose after the other; vitrine-rig places its own. With "
+        "--correspondences and --axis, uses measured points instead.",
+    .flags = kCalibrateFlags,
+    .run = run_calibrate};
 
 }  // namespace vitrine::server::cli

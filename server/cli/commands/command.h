@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares the subcommands of `vitrine`. Each is defined in its own file and listed in run.cpp.
+// Declares the subcommands of `vitrine`. Each subcommand has its own file; run.cpp lists them all.
 #pragma once
 
 #include <span>

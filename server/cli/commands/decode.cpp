@@ -16,9 +16,7 @@
 namespace vitrine::server::cli {
 namespace {
 
-constexpr std::string_view kOutputFormat = "--format";
-
-// Returns the size in bytes of the file's head and all applied chunks together.
+// Returns the total size in bytes of the file's head and all applied chunks.
 std::uint64_t bytes_used(const Refiner& refiner) {
   std::uint64_t bytes = refiner.manifest().head_bytes();
   for (std::size_t i = 0; i < refiner.manifest().chunks.size(); ++i) {
@@ -71,42 +69,14 @@ tl::expected<void, Fault> check_originals(const Arguments& arguments, ExportKind
     return misused("only .glb holds the originals; name such an output file");
   if (arguments.has(kCompressionFlag.name))
     return misused("the originals are kept to the bit; leave out --compression");
+  if (arguments.has(kLodFlag.name))
+    return misused("only the finest level has originals; leave out --lod");
   if (want || arguments.has(kTextureFlag.name)) {
     return misused(
         "the originals belong to the finest level; leave out --level, --triangles, --bytes, "
         "--error and --texture");
   }
   return {};
-}
-
-// Returns the file name whose extension determines the kind of the output. For standard output, the
-// extension is the value of --format.
-tl::expected<std::string, Fault> name_of_output(const Arguments& arguments) {
-  if (!arguments.has("-o")) return misused("-o is missing; name the output file");
-  const std::string out = arguments.text("-o"), format = arguments.text(kOutputFormat);
-  if (out != kStandardStream) {
-    if (format.empty()) return out;
-    return misused("--format is for -o -; the name of another output chooses the format");
-  }
-  if (export_kind_of("mesh." + format)) return "mesh." + format;
-  return arguments.wrong_value(
-      kOutputFormat,
-      fmt::format("one of {},{}", std::string_view(kExportChoice), std::string_view(kZipChoice)));
-}
-
-// Writes the product to the file named by -o, with its companions beside that file, or to standard
-// output.
-CommandOutcome write_product(const Arguments& arguments, Product& product) {
-  const std::string out = arguments.text("-o");
-  if (out != kStandardStream) {
-    if (auto written = write_export(arguments, out, product); !written)
-      return failed(written.error());
-    return {};
-  }
-  if (product.companions.empty()) return write_output(out, product.file);
-  return failed(
-      "the pictures of this mesh are files of their own, which standard output cannot hold; use "
-      "--format glb, a zip, or --texture 0");
 }
 
 CommandOutcome decode(const Arguments& arguments) {
@@ -140,7 +110,7 @@ CommandOutcome decode(const Arguments& arguments) {
                      progress);
   });
   if (!product) return tl::unexpected(product.error());
-  if (auto written = write_product(arguments, *product); !written) return written;
+  if (auto written = write_export_or_stdout(arguments, *product); !written) return written;
   const auto& report = product->report;
   if (arguments.has("--json")) return print_json(report, result_stream(out));
   return print(
@@ -152,17 +122,18 @@ CommandOutcome decode(const Arguments& arguments) {
 
 constexpr std::string_view kDecodeOperands[] = {"FILE.pmesh"};
 constexpr FixedText kDecodeOutput = concatenate("OUT.{", kExportChoice, "}");
-constexpr FixedText kDecodeFormats = concatenate(kExportChoice, ",", kZipChoice);
+constexpr FixedText kDecodeFormats =
+    concatenate(join(kExportFormats, extension_of, "|", "|"), "|", kZipChoice);
 constexpr FixedText kDecodeDetails = concatenate(
-    "The name of OUT chooses the format. FILE.pmesh may be -, which is standard input; -o - is "
-    "standard output, for which --format chooses, and the result is printed to standard error. "
+    "The name of OUT chooses the format. FILE.pmesh may be -, which is standard input. With -o -, "
+    "which is standard output, --format chooses the format, and the result goes to standard error. "
     "--level, --triangles, --bytes and --error exclude each "
     "other; without any, the finest level is written. ",
     kNoteOnCompanions);
 constexpr Flag kDecodeFlags[] = {
     {"-o", kDecodeOutput, "mesh file to write (required); - is standard output"},
-    {kOutputFormat, kDecodeFormats, "format of -o -"},
-    {"--level", "L", "level of detail; 0 is the coarsest"},
+    {kOutputFormat, kDecodeFormats, kOutputFormatHelp},
+    {"--level", "L", "level of detail; 0 is the coarsest; vitrine info lists the levels"},
     {"--triangles", "N", "finest mesh with at most N triangles"},
     {"--bytes", "B", "finest mesh in the first B bytes of the file"},
     {"--error", "E", "coarsest level within E of the original, in the model's unit"},
@@ -170,8 +141,10 @@ constexpr Flag kDecodeFlags[] = {
     kUnitInFileFlag,
     kUpInFileFlag,
     kCompressionFlag,
+    kLodFlag,
     {"--originals", "",
-     "the source's materials, pictures and texture coordinates, to the bit; for .glb"},
+     "write the source's own materials, pictures and texture coordinates, unchanged, instead of "
+     "the model's; only for .glb"},
     kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 

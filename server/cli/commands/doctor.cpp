@@ -4,11 +4,7 @@
 #include <algorithm>
 
 #include "server/cli/commands/command.h"
-#include "server/cli/doctor/check_data.h"
-#include "server/cli/doctor/check_integrity.h"
-#include "server/cli/doctor/check_machine.h"
-#include "server/cli/doctor/check_server.h"
-#include "server/cli/doctor/check_services.h"
+#include "server/cli/doctor/checks.h"
 #include "server/cli/support/access_token.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/place.h"

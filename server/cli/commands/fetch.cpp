@@ -67,9 +67,10 @@ tl::expected<std::optional<DetailTarget>, Fault> read_detail_target(const Argume
 }
 
 tl::expected<Order, Fault> read_order(const Arguments& arguments) {
-  if (!arguments.has("-o")) return misused("-o is missing; name the output file");
+  const auto name = name_of_output(arguments, "pmesh");
+  if (!name) return tl::unexpected(name.error());
   Order order;
-  order.options.out = arguments.text("-o");
+  order.options.out = *name;
   const std::string extension = order.options.out.extension().string();
   if (extension != ".pmesh") {
     const auto kind = read_export_kind(order.options.out.string(), ", .pmesh");
@@ -93,8 +94,9 @@ tl::expected<Order, Fault> read_order(const Arguments& arguments) {
     if (!choices) return tl::unexpected(choices.error());
     order.choices = *choices;
   } else if (arguments.has(kUnitInFileFlag.name) || arguments.has(kUpInFileFlag.name) ||
-             arguments.has(kCompressionFlag.name)) {
-    return misused("a .pmesh file is the model as it is; leave out --unit, --up and --compression");
+             arguments.has(kCompressionFlag.name) || arguments.has(kLodFlag.name)) {
+    return misused(
+        "a .pmesh file is the model as it is; leave out --unit, --up, --compression and --lod");
   }
   auto url = parse_model_url(arguments.operand(0));
   if (!url) return misused(url.error().message);
@@ -105,8 +107,9 @@ tl::expected<Order, Fault> read_order(const Arguments& arguments) {
   return order;
 }
 
-// Returns the number of bytes to fetch for `target`. If it is a number of bytes, returns that
-// number. Otherwise returns the size of the file up to the coarsest level that meets `target`.
+// Returns the number of bytes to fetch for `target`. For a target in bytes, this is the target
+// itself. For other targets, this is the size of the file up to the coarsest level that meets the
+// target.
 double bytes_for(const Manifest& m, const std::optional<DetailTarget>& target) {
   const auto* want = target ? std::get_if<Want>(&*target) : nullptr;
   if (want == nullptr) return static_cast<double>(m.file_bytes);
@@ -198,8 +201,9 @@ tl::expected<Fetched, Fault> receive(const Order& order) {
 
 // Decodes the complete chunks in file order, except those that depend on a missing chunk. Returns
 // the mesh file.
-Expected<Product> decode_held(const PartialModel& model, std::span<const std::uint8_t> pmesh,
+Expected<Product> decode_held(const Fetched& fetched, std::span<const std::uint8_t> pmesh,
                               const Order& order) {
+  const PartialModel& model = fetched.model;
   auto refiner = open_model(pmesh);
   if (!refiner) return tl::unexpected(refiner.error());
   const Manifest& manifest = refiner->manifest();
@@ -215,26 +219,28 @@ Expected<Product> decode_held(const PartialModel& model, std::span<const std::ui
   if (triangles != nullptr && triangles->triangles < refiner->face_count())
     refiner->undo_to_faces(static_cast<std::uint32_t>(triangles->triangles));
   return exported_mesh(*refiner, pmesh, *order.kind, order.options.out.string(),
-                       pictures_for(order, model), order.choices);
+                       pictures_for(order, model), order.choices,
+                       PresentationTransform(fetched.presentation));
 }
 
 // Writes the output file and returns its numbers of faces and vertices.
-tl::expected<nlohmann::json, Fault> write_out(const Arguments& arguments, const PartialModel& model,
+tl::expected<nlohmann::json, Fault> write_out(const Arguments& arguments, const Fetched& fetched,
                                               const Order& order) {
-  const std::string out = order.options.out.string();
+  const PartialModel& model = fetched.model;
+  const std::string out = arguments.text("-o");
   const auto part = InputFile::open(model.path().string());
   if (!part) return failed(part.error());
   if (!order.kind) {
-    if (auto written = write_file_atomically(out, part->bytes()); !written)
-      return failed(written.error());
+    if (auto written = write_output(out, part->bytes()); !written)
+      return tl::unexpected(written.error());
     const LevelInfo& finest = model.manifest()->levels.back();
     return nlohmann::json{{"faces", finest.faces}, {"vertices", finest.vertices}};
   }
-  auto product =
-      isolate(out, [&](const ProgressReport&) { return decode_held(model, part->bytes(), order); });
+  auto product = isolate(
+      out, [&](const ProgressReport&) { return decode_held(fetched, part->bytes(), order); });
   if (!product) return tl::unexpected(product.error());
-  if (auto written = write_export(arguments, out, *product); !written)
-    return failed(written.error());
+  if (auto written = write_export_or_stdout(arguments, *product); !written)
+    return tl::unexpected(written.error());
   return product->report;
 }
 
@@ -242,14 +248,14 @@ nlohmann::json promise_json(const PromiseMessage& promise) {
   return {{"level", promise.level},         {"bytes", promise.bytes},
           {"triangles", promise.triangles}, {"error", promise.error},
           {"seconds", promise.seconds},     {"bytes_per_second", promise.bytes_per_second},
-          {"measured", promise.measured}};
+          {"measured", promise.is_measured}};
 }
 
 CommandOutcome fetch_model(const Arguments& arguments) {
   const auto order = read_order(arguments);
   if (!order) return tl::unexpected(order.error());
-  const std::string out = order->options.out.string();
-  if (const auto free = check_output(arguments, out); !free) return failed(free.error());
+  const std::string out = arguments.text("-o");
+  if (const auto free = check_output_or_stdout(arguments, out); !free) return failed(free.error());
   const auto fetched = receive(*order);
   if (!fetched) return tl::unexpected(fetched.error());
   const PartialModel& model = fetched->model;
@@ -257,7 +263,7 @@ CommandOutcome fetch_model(const Arguments& arguments) {
   if (want != nullptr) {
     if (auto met = check_want(*model.manifest(), *want); !met) return failed(met.error());
   }
-  auto report = write_out(arguments, model, *order);
+  auto report = write_out(arguments, *fetched, *order);
   if (!report) return tl::unexpected(report.error());
   std::error_code kept;  // ignored: if the file remains, the next run continues with it
   fs::remove(model.path(), kept);
@@ -267,15 +273,18 @@ CommandOutcome fetch_model(const Arguments& arguments) {
   (*report)["error"] = model.manifest()->levels[model.level()].max_error;
   (*report)["seconds"] = fetched->seconds;
   if (fetched->promise) (*report)["promise"] = promise_json(*fetched->promise);
-  if (arguments.has("--json")) return print_json(*report);
+  if (arguments.has("--json")) return print_json(*report, result_stream(out));
   return print(fmt::format("{}: {} faces, {} vertices from {} bytes in {:.2f} s{}", out,
                            (*report)["faces"].get<std::uint64_t>(),
                            (*report)["vertices"].get<std::uint64_t>(), model.bytes(),
-                           fetched->seconds, companions_as_text(*report)));
+                           fetched->seconds, companions_as_text(*report)),
+               result_stream(out));
 }
 
 constexpr std::string_view kFetchOperands[] = {"URL"};
 constexpr FixedText kFetchOutput = concatenate("OUT.{", kExportChoice, ",pmesh}");
+constexpr FixedText kFetchFormats =
+    concatenate(join(kExportFormats, extension_of, "|", "|"), "|", kZipChoice, "|pmesh");
 constexpr FixedText kFetchDetails = concatenate(
     "URL is the address of a model's page, such as https://museum.example/models/ID. The name of "
     "OUT chooses the format. --level, --triangles, --bytes, --error, --seconds and --view exclude "
@@ -283,8 +292,13 @@ constexpr FixedText kFetchDetails = concatenate(
     "command is run again. ",
     kNoteOnCompanions);
 constexpr Flag kFetchFlags[] = {
-    {"-o", kFetchOutput, "file to write (required)"},
-    {"--level", "L", "level of detail; 0 is the coarsest"},
+    {"-o", kFetchOutput,
+     "file to write (required); - is standard output, and what has arrived is kept in the current "
+     "folder"},
+    {kOutputFormat, kFetchFormats, kOutputFormatHelp},
+    {"--level", "L",
+     "level of detail; 0 is the coarsest; the manifest lists the levels "
+     "(/api/v1/models/ID/manifest)"},
     {"--triangles", "N", "finest mesh with at most N triangles"},
     {"--bytes", "B", "finest mesh in the first B bytes of the file"},
     {"--error", "E", "coarsest level within E of the original, in the model's unit"},
@@ -296,6 +310,7 @@ constexpr Flag kFetchFlags[] = {
     kUnitInFileFlag,
     kUpInFileFlag,
     kCompressionFlag,
+    kLodFlag,
     {"--token", "T", "token of role viewer or higher, for unpublished models"},
     kTokenFileFlag,
     kForceFlag,

@@ -18,8 +18,8 @@ namespace {
 using acquisition::PoseScan;
 using nlohmann::json;
 
-// Returns the mesh of a stored scan, built with the options of the scan's request, and its sight
-// lines.
+// Returns the mesh and the sight lines of a stored scan. Builds the mesh with the options of the
+// scan's request.
 Expected<PoseScan> read_pose(const std::string& path, const std::filesystem::path& calibrations) {
   constexpr std::size_t kLines = 2'000;  // number of points with sight lines
   const auto folder = acquisition::ScanFolder::open(path);

@@ -22,8 +22,8 @@ std::uint64_t inserted_vertices(const Manifest& m) {
   return vertices;
 }
 
-// Describes the texture. Returns null if the model has none. `charts` is null if the file ends
-// before the atlas.
+// Describes the texture. Returns null if the model has no texture. `charts` is the number of charts
+// in the atlas, or null if the file ends before the atlas.
 json texture_json(const Manifest& m, const json& charts) {
   if (m.texture.empty()) return nullptr;
   json pictures = json::array();

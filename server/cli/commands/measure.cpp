@@ -70,7 +70,7 @@ json describe(const SurfaceDistance& d) {
           {"b_to_a", one_way(d.b_to_a)}};
 }
 
-// Describes the map's colours, with the distances in the unit of the numbers.
+// Describes the map's colours. The distances have the same unit as the measured numbers.
 std::string legend(const json& map) {
   return fmt::format(
       "\n{0}: A's surface, red where it lies {1:.6g} or more outside B, blue where it lies {1:.6g} "
@@ -171,7 +171,7 @@ tl::expected<std::optional<MapTarget>, Fault> map_from(const Arguments& argument
   if (*range == 0.0) return arguments.wrong_value("--range", "a distance above 0");
   if (!arguments.has("--map")) {
     if (!*range) return std::nullopt;
-    return misused("--range is for --map; name the map's file");
+    return misused("--range needs --map; name the map's file");
   }
   const std::string file = arguments.text("--map");
   const auto format = format_of_extension(std::filesystem::path(file).extension().string());
@@ -199,11 +199,11 @@ tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
   if (!arguments.has("--appearance")) return distance_measure(arguments);
   for (const char* flag : {"--align", "--samples", "--map", "--range"})
     if (arguments.has(flag))
-      return misused(fmt::format("{} is for distances; leave it or --appearance out", flag));
+      return misused(fmt::format("{} and --appearance exclude each other; leave one out", flag));
   return Measure{compare_looks, likeness, SurfaceParts::kLooks};
 }
 
-// The file of a surface, and those files beside it that hold required parts, such as pictures.
+// The file of a surface, and the files beside it that contain required parts, such as pictures.
 class MeasuredFile {
  public:
   MeasuredFile(std::string name, InputFile file, SurfaceParts parts)
@@ -278,8 +278,8 @@ constexpr Flag kMeasureFlags[] = {
      "also write A's surface with a colour for the distance to B: grey where both agree, red where "
      "A lies outside B, blue where it lies inside; OUT is a mesh file, but not .stl"},
     {"--range", "D",
-     "distance of the full colours of --map, in B's unit; default: the distance that 95 % of A's "
-     "vertices do not exceed, or the largest one if over 95 % lie on B"},
+     "with --map: distance, in B's unit, from which red and blue are strongest; default: the "
+     "distance that 95 % of A's vertices do not exceed, or the largest if over 95 % lie on B"},
     kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 

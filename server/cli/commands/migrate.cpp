@@ -39,7 +39,8 @@ CommandOutcome migrate_installation(const Arguments& arguments) {
 constexpr Flag kMigrateFlags[] = {
     {"--from", "DIR|FILE", "source: data folder, or configuration file of its daemon (required)"},
     {"--to", "DIR|FILE",
-     "destination, which must be new: data folder, or configuration file of its daemon (required)"},
+     "destination, which must be new or hold an interrupted migration: data folder, or "
+     "configuration file of its daemon (required)"},
     {"--json", "", "print the result as one JSON object: models, files and bytes"}};
 
 }  // namespace
@@ -49,8 +50,8 @@ const Command kMigrate = {
     .summary = "Copies models, tokens and jobs to another data folder, or bucket and database.",
     .details =
         "You may start while the source's daemon runs, but stop it before the command ends: "
-        "changes after the copy are lost. Uploads and scan data are not copied. For a bucket or "
-        "database, give a configuration file.",
+        "changes after the copy are lost. After an interruption, run the command again. Uploads "
+        "and scan data are not copied. For a bucket or database, give a configuration file.",
     .flags = kMigrateFlags,
     .run = migrate_installation};
 

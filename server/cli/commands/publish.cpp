@@ -18,22 +18,32 @@
 #include "server/cli/support/isolation.h"
 #include "server/cli/support/place.h"
 #include "server/cli/support/reading.h"
+#include "server/store/text.h"
 
 namespace vitrine::server::cli {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Prints what the build changed or left out.
-void print_repairs(const std::string& path, const nlohmann::json& repairs) {
-  for (const nlohmann::json& repair : repairs)
-    print_note(fmt::format("{}: {}", path, repair.get<std::string>()));
+using Lines = std::vector<std::string>;
+
+// A .pmesh file, and a list of what its build changed or left out. The list is empty for a file
+// that was built earlier, because nothing is known of its build.
+struct BuiltFile {
+  Bytes bytes;
+  Lines repairs = {};
+};
+
+void print_repairs(const std::string& path, const Lines& repairs) {
+  for (const std::string& repair : repairs)
+    print_note(fmt::format("{}: {}", path, repair));
 }
 
-// Returns the .pmesh file to publish. Builds it if the input is a mesh. If the input is a .pmesh,
-// first decodes all of it as a check, because the file may be damaged or hostile.
-tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path,
-                                      const ReadOptions& reading, const SpillOptions& spill) {
+// Returns the .pmesh file to publish. Builds it if the input is a mesh, and prints the repairs. If
+// the input is a .pmesh, first decodes all of it as a check, because the file may be damaged or
+// hostile.
+tl::expected<BuiltFile, Fault> make_pmesh(const InputFile& file, const std::string& path,
+                                          const ReadOptions& reading, const SpillOptions& spill) {
   const auto task = [&](const ProgressReport& progress) -> Expected<Product> {
     if (file.is_pmesh()) {
       const auto verified = verify_model(file.bytes(), std::nullopt, progress);
@@ -48,43 +58,44 @@ tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& 
   };
   const auto product = isolate(path, task, spill);
   if (!product) return tl::unexpected(product.error());
-  print_repairs(path, product->report.value("repairs", nlohmann::json::array()));
-  return product->file;
+  BuiltFile built{product->file, product->report.value("repairs", Lines())};
+  print_repairs(path, built.repairs);
+  return built;
 }
 
-tl::expected<InputFile, Fault> open_input(const Arguments& arguments) {
-  auto file = InputFile::open(arguments.operand(0));
+tl::expected<InputFile, Fault> open_input(const Arguments& arguments, const std::string& path) {
+  auto file = InputFile::open(path);
   if (!file) return failed(file.error());
   if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up")))
     return misused("--unit and --up apply to meshes; a .pmesh file has both, so build it again");
   return std::move(*file);
 }
 
-// Returns the bytes to upload. If a mesh refers to files beside it, builds the .pmesh file on this
+// Returns the file to upload. If a mesh refers to files beside it, builds the .pmesh file on this
 // machine, because the server cannot open those files.
-tl::expected<Bytes, Fault> bytes_to_send(const InputFile& file, const std::string& path,
-                                         ReadOptions reading) {
+tl::expected<BuiltFile, Fault> file_to_send(const InputFile& file, const ModelPath& path,
+                                            ReadOptions reading) {
   const CompanionFiles companions(path, file.bytes());
   reading.beside = companions.contents();
-  if (!file.is_pmesh() && !reading.beside.empty()) return make_pmesh(file, path, reading, {});
-  return Bytes(file.bytes().begin(), file.bytes().end());
+  if (!file.is_pmesh() && !reading.beside.empty()) return make_pmesh(file, path.file, reading, {});
+  return BuiltFile{Bytes(file.bytes().begin(), file.bytes().end())};
 }
 
-// Uploads the bytes and publishes the model. Returns the finished job.
-tl::expected<nlohmann::json, Fault> publish_bytes(RemoteVitrine& remote, const Bytes& bytes,
-                                                  nlohmann::json order) {
+// Uploads the file and publishes the model. Returns the finished job.
+tl::expected<nlohmann::json, Fault> publish_upload(RemoteVitrine& remote, const BuiltFile& file,
+                                                   nlohmann::json order) {
   ProgressBar bar;
-  const auto upload = remote.upload(bytes, bar.report());
+  const auto upload = remote.upload(file.bytes, bar.report());
   if (!upload) return tl::unexpected(upload.error());
   order["upload"] = *upload;
+  if (!file.repairs.empty()) order["repairs"] = lines_of(joined_lines(file.repairs));
   const auto started =
       remote.ask_with_retries("POST", "/api/v1/models", order, "Idempotency-Key: " + *upload);
   if (!started) return tl::unexpected(started.error());
   return remote.await(started->value("job", ""), bar.report());
 }
 
-ModelMetadata metadata_of(const Arguments& arguments) {
-  std::filesystem::path name(arguments.operand(0));
+ModelMetadata metadata_of(const Arguments& arguments, std::filesystem::path name) {
   if (name.extension() == ".gz") name.replace_extension();
   return {.title = arguments.text("--title", as_utf8(name.stem().string())),
           .creator = arguments.text("--creator"),
@@ -92,8 +103,7 @@ ModelMetadata metadata_of(const Arguments& arguments) {
           .licence = arguments.text("--licence")};
 }
 
-nlohmann::json order_of(const Arguments& arguments, const ReadOptions& reading) {
-  const ModelMetadata about = metadata_of(arguments);
+nlohmann::json order_of(const ModelMetadata& about, const ReadOptions& reading) {
   nlohmann::json order = {{"publish", true}, {"up", reading.up == UpAxis::kZ ? "z" : "y"}};
   order["metadata"] = {{"title", about.title},
                        {"creator", about.creator},
@@ -109,18 +119,34 @@ CommandOutcome publish_at_server(const Arguments& arguments) {
   if (!remote) return tl::unexpected(remote.error());
   const auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
-  if (const auto usable = check_texts(metadata_of(arguments)); !usable)
-    return failed(usable.error());
-  const std::string path = arguments.operand(0);
-  const auto file = open_input(arguments);
+  const auto model = ModelPath::of(arguments.operand(0));
+  if (!model) return failed(model.error());
+  const std::string& path = model->file;
+  const ModelMetadata about = metadata_of(arguments, path);
+  if (const auto usable = check_texts(about); !usable) return failed(usable.error());
+  const auto file = open_input(arguments, path);
   if (!file) return tl::unexpected(file.error());
-  const auto bytes = bytes_to_send(*file, path, *reading);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const auto done = publish_bytes(*remote, *bytes, order_of(arguments, *reading));
+  const auto sent = file_to_send(*file, *model, *reading);
+  if (!sent) return tl::unexpected(sent.error());
+  const auto done = publish_upload(*remote, *sent, order_of(about, *reading));
   if (!done) return failed(fmt::format("{}: {}", path, done.error().message));
-  print_repairs(path, done->value("repairs", nlohmann::json::array()));
+  if (sent->repairs.empty()) print_repairs(path, done->value("repairs", Lines()));
   const std::string id = done->value("model", ""), url = remote->origin() + "/models/" + id;
   return arguments.has("--json") ? print_json({{"id", id}, {"url", url}}) : print(url);
+}
+
+// Publishes the file if the installation's limits on disk space allow it.
+Expected<Publication> publish_within(const StorageLimits& limits, const Installation& installation,
+                                     const BuiltFile& file, const ModelMetadata& metadata) {
+  const auto stored = installation.store->size_of(sha256(file.bytes));
+  if (!stored) return tl::unexpected(stored.error());
+  const std::uint64_t more = *stored ? 0 : file.bytes.size();
+  if (auto fits = check_reserve(installation.place, more, limits.disk.reserve); !fits)
+    return tl::unexpected(fits.error());
+  const Uploads uploads(limits.uploads, {});
+  Quota quota(*installation.catalogue, uploads, limits.disk.quota);
+  return publish(*installation.store, *installation.catalogue, file.bytes, metadata,
+                 {.quota = &quota, .repairs = joined_lines(file.repairs)});
 }
 
 CommandOutcome publish_file(const Arguments& arguments) {
@@ -130,29 +156,30 @@ CommandOutcome publish_file(const Arguments& arguments) {
     return misused("--data or --server is missing; name the data folder or the server");
   auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
-  const std::string path = arguments.operand(0);
-  const auto file = open_input(arguments);
+  const auto model = ModelPath::of(arguments.operand(0));
+  if (!model) return failed(model.error());
+  const std::string& path = model->file;
+  const auto file = open_input(arguments, path);
   if (!file) return tl::unexpected(file.error());
   const auto place = place_of(arguments.text("--data"));
   if (!place) return failed(place.error());
   if (const auto usable = check_existing(*place); !usable) return failed(usable.error());
-  const CompanionFiles companions(path, file->bytes());
+  const CompanionFiles companions(*model, file->bytes());
   reading->beside = companions.contents();
   reading->name = path;
-  const SpillOptions spill{.folder = place->folder, .input = file->bytes()};
+  const auto limits = storage_limits_of(arguments.text("--data"));
+  if (!limits) return failed(limits.error());
+  const SpillOptions spill{
+      .folder = place->folder, .disk_reserve = limits->disk.reserve, .input = file->bytes()};
   const auto pmesh = make_pmesh(*file, path, *reading, spill);
   if (!pmesh) return tl::unexpected(pmesh.error());
 
   const auto installation = open_installation(*place);
   if (!installation) return failed(installation.error());
-  const auto limit = storage_limit_of(arguments.text("--data"));
-  if (!limit) return failed(limit.error());
-  const Uploads uploads(limit->uploads, {});
-  Quota quota(*installation->catalogue, uploads, limit->bytes);
   const auto trail = AuditTrail::open(installation->place.folder);
   if (!trail) return failed(trail.error());
-  const auto published = publish(*installation->store, *installation->catalogue, *pmesh,
-                                 metadata_of(arguments), {.quota = &quota});
+  const auto published =
+      publish_within(*limits, *installation, *pmesh, metadata_of(arguments, path));
   trail->record("publish", published ? published->id.to_string() : path, published.has_value());
   if (!published) return failed(published.error());
   const std::string id = published->id.to_string();
@@ -175,8 +202,8 @@ constexpr Flag kPublishFlags[] = {
     {"--token", "T", "with --server: access token of role operator or higher"},
     kTokenFileFlag,
     {"--title", "T", "title of the model (default: name of the file)"},
-    {"--creator", "C", "who made the object"},
-    {"--rights", "R", "who holds the rights, such as \"Museum of Example, 2026\""},
+    {"--creator", "C", "maker of the object"},
+    {"--rights", "R", "holder of the rights, such as \"Museum of Example, 2026\""},
     {"--licence", "L", "licence, such as CC-BY-4.0 or its address"},
     {"--json", "", "print the result as one JSON object: id and url"}};
 
@@ -187,7 +214,10 @@ const Command kPublish = {
     .summary =
         "Publishes a mesh, a package of a mesh and its pictures (zip, tar or gzip) or a .pmesh "
         "file.",
-    .details = "Give --data on the daemon's machine, or --server and --token anywhere else.",
+    .details =
+        "IN may be a folder with one model and its pictures. Give --data on the daemon's machine, "
+        "or --server and --token anywhere else. If the same model is published already with the "
+        "same texts, prints its ID and publishes nothing.",
     .operands = kPublishOperands,
     .flags = kPublishFlags,
     .examples =

@@ -56,7 +56,7 @@ CommandOutcome show_repair(const RepairReport& report, bool as_json) {
 CommandOutcome repair_installation(const Arguments& arguments) {
   if (!arguments.has("--data")) return misused("--data is missing; name the installation");
   if (arguments.has("--backup") == arguments.has("--from"))
-    return misused("it is not stated where the copies are; give either --backup or --from");
+    return misused("the source of intact copies is missing; give either --backup or --from");
   const auto done = repair_from(arguments);
   if (!done) return failed(done.error());
   const CommandOutcome shown = show_repair(*done, arguments.has("--json"));

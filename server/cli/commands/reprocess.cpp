@@ -85,7 +85,7 @@ const Command kReprocess = {
     .details =
         "SCAN_FOLDER is the folder OUT.ply.scan that vitrine scan --keep-frames or --keep leaves. "
         "Flags not given keep the values used by the scan. --stripe and --calibration need the "
-        "pictures of the scan (--keep-frames), because they evaluate them again.",
+        "pictures of the scan (--keep-frames), because they evaluate the pictures again.",
     .operands = kReprocessOperands,
     .flags = kReprocessFlags,
     .run = run_reprocess};

@@ -27,9 +27,10 @@ std::string flag_usage(const Flag& flag) {
 std::string overview() {
   std::string text =
       "Turns 3D scans into progressive meshes (.pmesh); publishes, fetches and checks them.\n\n"
-      "usage: vitrine COMMAND [ARGUMENTS]\n\n";
+      "Usage: vitrine COMMAND [ARGUMENTS]\n\n";
+  constexpr std::size_t kSummaryColumn = 13;
   for (const Command* command : kCommands) {
-    text += fmt::format("  {:<10} {}\n", command->name, command->summary);
+    text += fmt::format("  {:<10} {}\n", command->name, wrapped(command->summary, kSummaryColumn));
   }
   return text +
          "\nRun 'vitrine help COMMAND' for the flags of a command, 'vitrine --version' for the "
@@ -44,11 +45,13 @@ std::string indented(std::string_view lines) {
 }
 
 std::string usage(const Command& command) {
-  std::string text = fmt::format("{}\n\nusage: vitrine {}", command.summary, command.name);
+  std::string text =
+      fmt::format("{}\n\nUsage: vitrine {}", wrapped(command.summary, 0), command.name);
   for (const std::string_view operand : command.operands)
     text += fmt::format(" {}", operand);
-  text += command.flags.empty() ? "\n\n" : " [FLAGS]\n\n";
-  if (!command.details.empty()) text += wrapped(command.details, 0) + "\n\n";
+  text += command.flags.empty() ? "\n" : " [FLAGS]\n";
+  if (!command.details.empty()) text += fmt::format("\n{}\n", wrapped(command.details, 0));
+  if (!command.flags.empty()) text += "\n";
   constexpr std::size_t kHelpColumn = 36;
   for (const Flag& flag : command.flags) {
     const std::string name = "  " + flag_usage(flag);

@@ -37,7 +37,7 @@ tl::expected<acquisition::ScanRequest, Fault> request_of(const Arguments& argume
   request.processing = *processing;
   request.steps = static_cast<int>(steps->value_or(static_cast<std::uint64_t>(config.steps)));
   if (*exposure) request.exposure_us = static_cast<double>(**exposure);
-  request.keep_frames = arguments.has("--keep-frames");
+  request.keeps_frames = arguments.has("--keep-frames");
   return request;
 }
 
@@ -113,31 +113,39 @@ CommandOutcome run_scan(const Arguments& arguments) {
   if (!record || !*record) return failed("the scan's record is gone; scan again");
   const json report =
       describe_scanned(*surface, status.stripe, **record, (*record)->calibration, out);
-  const bool keep = arguments.has("--keep") || (*record)->request.keep_frames;
+  const bool keep = arguments.has("--keep") || (*record)->request.keeps_frames;
   const acquisition::ScanFolder rest = (*scan)->folder();
   scan->reset();
   if (!keep) rest.remove();
   return arguments.has("--json") ? print_json(report) : print(scanned_as_text(report));
 }
 
+constexpr FixedText kStripeHelp =
+    concatenate(kStripeFlag.help, " (default: derivative-of-gaussian)");
+constexpr FixedText kSamplingHelp = concatenate(kSamplingFlag.help, " (default: adaptive)");
+constexpr FixedText kLengthHelp = concatenate(kLengthFlag.help, " (default: 5)");
+constexpr FixedText kLargestAngleHelp = concatenate(kLargestAngleFlag.help, " (default: 75)");
+constexpr FixedText kLargestHoleHelp = concatenate(kLargestHoleFlag.help, " (default: 2)");
 constexpr Flag kScanFlags[] = {
     {"--config", "rig.json",
      "configuration file of the scanner, which must be calibrated (required); see "
      "acquisition/README.md"},
     {"-o", "OUT.ply", "mesh file to write, in mm (required)"},
     {"--steps", "N", "steps per revolution, 8 to 36000 (default: steps in rig.json)"},
-    kStripeFlag,
-    kSamplingFlag,
-    kLengthFlag,
-    kLargestAngleFlag,
-    kLargestHoleFlag,
+    {kStripeFlag.name, kStripeFlag.value, kStripeHelp},
+    {kSamplingFlag.name, kSamplingFlag.value, kSamplingHelp},
+    {kLengthFlag.name, kLengthFlag.value, kLengthHelp},
+    {kLargestAngleFlag.name, kLargestAngleFlag.value, kLargestAngleHelp},
+    {kLargestHoleFlag.name, kLargestHoleFlag.value, kLargestHoleHelp},
     {"--exposure", "US", "exposure time in microseconds (default: exposure_us in rig.json)"},
     {"--calibration", "N", "number of the calibration (default: the newest that fits the camera)"},
     {"--keep-frames", "", "keep the folder OUT.ply.scan, with all pictures, for vitrine reprocess"},
     {"--keep", "",
      "keep the folder OUT.ply.scan, without pictures, for vitrine fuse; repeat this flag with "
      "--resume"},
-    {"--resume", "", "continue the interrupted scan in the folder OUT.ply.scan"},
+    {"--resume", "",
+     "continue the interrupted scan in the folder OUT.ply.scan with the settings that it began "
+     "with; excludes the flags from --steps to --keep-frames"},
     kForceFlag,
     {"--json", "", "print the result as one JSON object"}};
 

@@ -95,7 +95,9 @@ constexpr Flag kTokenFlags[] = {
      "create: viewer reads unpublished models, operator also publishes and scans, admin also "
      "manages tokens"},
     {"--label", "L", "create: note on the token's owner or purpose"},
-    {"--id", "ID", "revoke: ID that create printed"},
+    {"--id", "ID",
+     "revoke: ID that create printed; an administrator sees all IDs at /console and by GET "
+     "/api/v1/tokens"},
     {"--server", "URL", "address of a server, such as https://museum.example, instead of --data"},
     {"--token", "T", "with --server: access token of role admin"},
     kTokenFileFlag,

@@ -29,13 +29,13 @@ json describe(const Verification& v) {
 
 std::string verdict(const json& report) {
   const auto pictures = report["pictures"].get<std::uint64_t>();
-  return fmt::format("ok: {} levels and {} chunks{}{}, {} vertices, {} faces, {} order(s){}",
-                     report["levels"].get<std::uint64_t>(), report["chunks"].get<std::uint64_t>(),
-                     pictures > 0 ? fmt::format(", {} picture(s)", pictures) : std::string(),
-                     report["originals"].get<bool>() ? ", the source's originals" : "",
-                     report["vertices"].get<std::uint64_t>(), report["faces"].get<std::uint64_t>(),
-                     report["orders"].get<std::uint64_t>(),
-                     report["lossless"].is_null() ? "" : "; lossless");
+  return fmt::format(
+      "ok: {} levels and {} chunks{}{}, {} vertices, {} faces, decoded in {} order(s){}",
+      report["levels"].get<std::uint64_t>(), report["chunks"].get<std::uint64_t>(),
+      pictures > 0 ? fmt::format(", {} picture(s)", pictures) : std::string(),
+      report["originals"].get<bool>() ? ", the source's originals" : "",
+      report["vertices"].get<std::uint64_t>(), report["faces"].get<std::uint64_t>(),
+      report["orders"].get<std::uint64_t>(), report["lossless"].is_null() ? "" : "; lossless");
 }
 
 CommandOutcome report_fault(bool as_json, const Fault& fault) {
@@ -83,8 +83,9 @@ CommandOutcome verify(const Arguments& arguments) {
 
 constexpr std::string_view kVerifyOperands[] = {"FILE.pmesh"};
 constexpr Flag kVerifyFlags[] = {{"--against", "IN",
-                                  "mesh that the file was built from, to check that its finest "
-                                  "level has the same surface and the same originals"},
+                                  "mesh that the file was built from; checks that the finest "
+                                  "level has the same surface, and that the file keeps the mesh's "
+                                  "own materials, pictures and texture coordinates unchanged"},
                                  {"--up", "y|z",
                                   "with --against: the value of --up with which the file was built "
                                   "(default y)"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/cli/doctor/check_server.h"
+#include "server/cli/doctor/checks.h"
 
 #include <curl/curl.h>
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ using Json = nlohmann::json;
 // Sends requests to a server as visitors do, through all proxies on the way.
 class Probe {
  public:
-  // `origin` has no slash at its end, as in "https://museum.example". It may contain a path that a
-  // proxy adds.
+  // `origin` has no slash at its end, as in "https://museum.example". It may include a path under
+  // which a proxy offers the server.
   explicit Probe(std::string origin) : origin_(std::move(origin)) {}
 
   Expected<RemoteAnswer> ask(const std::string& target, std::vector<std::string> fields = {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/cli/doctor/check_services.h"
+#include "server/cli/doctor/checks.h"
 
 #include <fmt/core.h>
 

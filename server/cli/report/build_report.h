@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes one self-contained page about a build. It has pictures of five levels, a plot of error
-// against bytes, and all figures.
+// against bytes, a table of all levels, and facts about the input and the file.
 #pragma once
 
 #include <cstdint>

@@ -17,8 +17,8 @@ namespace {
 constexpr int kTargets = 14;
 constexpr int kFewestBits = 8;
 constexpr MeasureOptions kMeasure{.samples = 20'000};
-// Time for sampling a mesh, expressed as the number of faces that are coded in that time. Used only
-// to estimate the progress.
+// Cost of sampling a mesh, as a number of faces that take equally long to encode. Used only to
+// estimate the progress.
 constexpr double kSampling = 180'000;
 
 class MeshoptSimplifier {
@@ -67,8 +67,8 @@ class MeshoptSimplifier {
   std::vector<std::uint32_t> indices_;
 };
 
-// Adds one file for each grid, from the coarsest to the finest. Skips a grid if Draco cannot code
-// the mesh.
+// Adds one file for each quantisation grid, from the coarsest to the finest. Skips a grid if Draco
+// cannot encode the mesh on it.
 void add_files(const TriangleMesh& mesh, const TriangleBvh& original, int most_bits,
                std::vector<SingleFile>& files) {
   for (int bits = kFewestBits; bits <= most_bits; ++bits) {

@@ -18,9 +18,9 @@ struct SingleFile {
 };
 
 // Returns files with face counts from about `fewest` to that of `original`. meshoptimizer
-// simplifies the meshes and moves no vertex. Draco encodes each mesh at its highest effort, on each
-// grid of 8 to `most_bits` bits per coordinate. Omits files that another one beats in both size and
-// error, so bytes ascend and errors descend. Calls `progress` with values from 0 to 1.
+// simplifies the meshes without moving vertices. Draco encodes each mesh at its highest effort, on
+// each grid of 8 to `most_bits` bits per coordinate. Omits a file if another file is both smaller
+// and more accurate, so bytes ascend and errors descend. Calls `progress` with values from 0 to 1.
 std::vector<SingleFile> single_files(const TriangleMesh& original, std::size_t fewest,
                                      int most_bits, const std::function<void(double)>& progress);
 

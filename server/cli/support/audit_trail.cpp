@@ -28,7 +28,8 @@ std::string login() {
   return number.empty() || number == kNobody ? "-" : number;
 }
 
-// Gives a file that root has created to the folder's owner, who must be able to append later.
+// If root has created the file, gives it to the folder's owner, who must be able to append to it
+// later.
 bool give_to_owner(int file, const std::filesystem::path& folder) {
   struct stat owner {};
   if (::geteuid() != 0) return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records which user has changed an installation by which command. The lines are in the file
-// audit.log of the data folder, in the format of the daemon's audit log.
+// Records which user has changed an installation with which command. Writes to the file audit.log
+// of the data folder, in the format of the daemon's audit log.
 #pragma once
 
 #include <filesystem>

@@ -12,16 +12,31 @@
 
 namespace vitrine::server::cli {
 
-// kBuffers opens only the .bin files, which contain the shape of a glTF model.
+// kBuffers opens only the buffers of a glTF model, which contain its shape.
 enum class CompanionKinds : std::uint8_t { kAll, kBuffers };
+
+// A mesh file, and the folder in which to search for its companions.
+struct ModelPath {
+  std::string file, folder;
+
+  // Returns the path that the user gave, and the path's folder. If the path is a folder, chooses
+  // the model in it and in its subfolders by choose_model(), and prints a note if there was a
+  // choice. Fails (kBadInput) if the folder has no model or several models.
+  static Expected<ModelPath> of(const std::string& path);
+};
 
 class CompanionFiles {
  public:
-  // Opens the .mtl files in the folder of `path` and its subfolders whose names occur in the first
-  // megabyte of `mesh`, or in the JSON of a glTF file. Also opens the .bin files and pictures whose
-  // names occur in the same places or in those .mtl files. If several files have the same name,
-  // opens the one in the folder itself, or else the one in the first subfolder. Opens no files for
-  // a package, which contains its own.
+  // Searches the folder `path.folder` and its subfolders, except hidden files and folders. For a
+  // glTF model, opens the files whose names occur as URIs in its JSON. For an FBX file, opens the
+  // pictures that its records name. For other meshes, opens the .mtl files whose names occur in the
+  // first megabyte of `mesh`, and the pictures whose names occur there, in the first 16 megabytes
+  // of a DAE file, or in those .mtl files. If several files have the same name, opens all of them,
+  // because only the reader knows which file is meant. Opens no files for a package, which contains
+  // its own files.
+  CompanionFiles(const ModelPath& path, std::span<const std::uint8_t> mesh,
+                 CompanionKinds kinds = CompanionKinds::kAll);
+  // Searches the folder of the file `path`.
   CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh,
                  CompanionKinds kinds = CompanionKinds::kAll);
 
@@ -29,7 +44,7 @@ class CompanionFiles {
   Companions contents() const;
 
  private:
-  std::map<std::string, InputFile> files_;  // key: companion_key() of the file's name
+  std::map<std::string, InputFile> files_;  // key: companion_key()
 };
 
 }  // namespace vitrine::server::cli

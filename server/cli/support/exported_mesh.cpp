@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "codec/build/coarser_levels.h"
 #include "codec/build/exported_texture.h"
 #include "codec/build/originals.h"
 #include "codec/build/refine.h"
@@ -32,7 +33,7 @@ std::string note_on_pictures(const Manifest& manifest, MeshFormat format) {
                      row_of(format).name, names);
 }
 
-// Whether an export with this stem may have a companion of this name.
+// Whether an export whose file name has this stem may have a companion file of this name.
 bool is_companion(std::string_view name, const std::string& stem) {
   if (name == stem + ".mtl") return true;
   for (std::uint8_t role = 0; role < kPictureRoles; ++role) {
@@ -40,6 +41,17 @@ bool is_companion(std::string_view name, const std::string& stem) {
     if (name == picture + ".jpg" || name == picture + ".png") return true;
   }
   return false;
+}
+
+// Decodes the coarser levels that an export contains besides the mesh that `refiner` shows.
+Expected<std::vector<CoarserLevel>> levels_below(const Refiner& refiner,
+                                                 std::span<const std::uint8_t> pmesh,
+                                                 bool is_textured) {
+  auto coarse = open_model(pmesh);
+  if (!coarse) return tl::unexpected(coarse.error());
+  const Manifest& manifest = refiner.manifest();
+  const auto levels = coarser_levels(manifest, shown_detail(refiner).level, refiner.face_count());
+  return decode_levels(std::move(*coarse), levels, is_textured, chunks_of(manifest, pmesh));
 }
 
 ExportOptions options_for(const Refiner& refiner, MeshFormat format, const ExportChoices& choices) {
@@ -54,11 +66,12 @@ ExportOptions options_for(const Refiner& refiner, MeshFormat format, const Expor
 tl::expected<ExportChoices, Fault> read_export_choices(const Arguments& arguments,
                                                        MeshFormat format) {
   const std::string unit = arguments.text("--unit"), up = arguments.text("--up"),
-                    compression = arguments.text("--compression");
+                    compression = arguments.text("--compression"), lod = arguments.text("--lod");
   ChoiceTexts texts;
   if (arguments.has("--unit")) texts.unit = unit;
   if (arguments.has("--up")) texts.up = up;
   if (arguments.has("--compression")) texts.compression = compression;
+  if (arguments.has("--lod")) texts.lod = lod;
   const auto choices = read_choices(texts, format);
   if (choices) return *choices;
   return arguments.wrong_value(fmt::format("--{}", choices.error().name), choices.error().wanted);
@@ -77,18 +90,45 @@ tl::expected<ExportKind, Fault> read_export_kind(const std::string& out, std::st
                              others));
 }
 
+tl::expected<std::string, Fault> name_of_output(const Arguments& arguments,
+                                                std::string_view other) {
+  if (!arguments.has("-o")) return misused("-o is missing; name the output file");
+  const std::string out = arguments.text("-o"), format = arguments.text(kOutputFormat);
+  if (out != kStandardStream) {
+    if (format.empty()) return out;
+    return misused(
+        "--format needs -o -; leave it out, because the name of the output chooses the format");
+  }
+  const bool is_other = !other.empty() && format == other;
+  if (is_other || export_kind_of("mesh." + format)) return "mesh." + format;
+  return arguments.wrong_value(
+      kOutputFormat,
+      fmt::format("{}, or {}{}{}", std::string_view(kExportExtensions),
+                  std::string_view(kZipExtensions), other.empty() ? "" : ", ", other));
+}
+
 Expected<Product> exported_mesh(const Refiner& refiner, std::span<const std::uint8_t> pmesh,
                                 ExportKind kind, const std::string& out,
-                                std::span<const std::size_t> pictures,
-                                const ExportChoices& choices) {
+                                std::span<const std::size_t> pictures, const ExportChoices& choices,
+                                const PresentationTransform& placement) {
   const Manifest& manifest = refiner.manifest();
   if (auto ok = check_unit(choices, manifest.unit); !ok) return tl::unexpected(ok.error());
   auto texturing = texturing_to_export(
       refiner, pictures, [&](std::size_t i) { return picture_of(manifest, pmesh, i); });
   if (!texturing) return tl::unexpected(texturing.error());
-  const TriangleMesh mesh = refiner.display_mesh();
-  auto files = write_textured_mesh(mesh, *std::move(texturing), kind.format, stem_of_export(out),
-                                   options_for(refiner, kind.format, choices));
+  TriangleMesh mesh = refiner.display_mesh();
+  place(mesh, placement);
+  Expected<std::vector<CoarserLevel>> coarser;
+  if (choices.has_levels) coarser = levels_below(refiner, pmesh, !texturing->empty());
+  if (!coarser) return tl::unexpected(coarser.error());
+  for (CoarserLevel& level : *coarser)
+    place(level, placement);
+  ExportOptions options = options_for(refiner, kind.format, choices);
+  options.about.error = *options.about.error * placement.scale();
+  options.grid = placed(*options.grid, placement);
+  options.coarser = *coarser;
+  auto files =
+      write_textured_mesh(mesh, *std::move(texturing), kind.format, stem_of_export(out), options);
   if (!files) return tl::unexpected(files.error());
   Product product{.report = {{"faces", mesh.faces.size()},
                              {"vertices", mesh.positions.size()},
@@ -117,8 +157,8 @@ Expected<Product> exported_originals(const Refiner& refiner, std::span<const std
   if (!texturing) return tl::unexpected(texturing.error());
   const TriangleMesh mesh = refiner.display_mesh();
   const std::size_t pictures = texturing->pictures.size();
-  // glTF numbers its sets consecutively. If only the second set is used, the first one is filled
-  // with zeros.
+  // glTF numbers the sets of texture coordinates consecutively. If only the second set is used, the
+  // first set is filled with zeros.
   if (texturing->coordinates[0].empty()) texturing->coordinates[0].resize(mesh.faces.size());
   auto files = write_textured_mesh(mesh, *std::move(texturing), MeshFormat::kGlb,
                                    stem_of_export(out), options_for(refiner, MeshFormat::kGlb, {}));
@@ -152,6 +192,19 @@ Expected<void> write_export(const Arguments& arguments, const std::string& out, 
   }
   product.report["companions"] = std::move(names);
   return write_file_atomically(out, product.file);
+}
+
+CommandOutcome write_export_or_stdout(const Arguments& arguments, Product& product) {
+  const std::string out = arguments.text("-o");
+  if (out != kStandardStream) {
+    if (auto written = write_export(arguments, out, product); !written)
+      return failed(written.error());
+    return {};
+  }
+  if (product.companions.empty()) return write_output(out, product.file);
+  return failed(
+      "the pictures of this mesh are files of their own, which standard output cannot hold; use "
+      "--format glb, a zip, or --texture 0");
 }
 
 std::string companions_as_text(const nlohmann::json& report) {

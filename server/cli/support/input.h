@@ -11,14 +11,13 @@
 
 namespace vitrine::server::cli {
 
-// The file name that stands for standard input, if it is an input, or for standard output, if it is
-// an output.
+// The name "-" means standard input for an input file, and standard output for an output file.
 inline constexpr std::string_view kStandardStream = "-";
 
 // Returns the name of an input in messages: its path, or "standard input".
 std::string input_name(const std::string& path);
 
-// Fails if writing `out` would overwrite the input `path`: there may be no second copy of a scan.
+// Fails if writing `out` would overwrite the input `path`, which may be the only copy of a scan.
 Expected<void> check_distinct(const std::string& path, const std::string& out);
 
 // A file mapped into memory, read-only.

@@ -14,9 +14,9 @@ struct MeasuredFiles {
   std::string axis;    // JSON in the format of axis_from_json()
 };
 
-// Calibrates a scanner from the files, which are checked first. Errors of this check (kIo,
-// kBadInput or kLimit) name the file, the place and what is expected there. Asks the scanner's
-// camera for its serial number and its region, but moves nothing.
+// Checks the files and calibrates a scanner from them. Errors of the check (kIo, kBadInput or
+// kLimit) name the file, the place in it and the expected content. Asks the scanner's camera for
+// its serial number and its region, but moves nothing.
 Expected<acquisition::Calibrated> calibrate_by(const MeasuredFiles& files,
                                                const acquisition::ScannerConfig& config,
                                                const acquisition::CalibrationOptions& options);

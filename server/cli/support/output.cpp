@@ -12,10 +12,7 @@ namespace vitrine::server::cli {
 Expected<void> check_output(const Arguments& arguments, const std::filesystem::path& out) {
   if (auto writable = check_writable(out); !writable) return writable;
   std::error_code unknown;  // ignored: writing the file will report the error
-  const bool has_content =
-      std::filesystem::exists(out, unknown) && !(std::filesystem::is_regular_file(out, unknown) &&
-                                                 std::filesystem::file_size(out, unknown) == 0);
-  if (arguments.has(kForceFlag.name) || !has_content) return {};
+  if (arguments.has(kForceFlag.name) || !std::filesystem::exists(out, unknown)) return {};
   return fail(ErrorCode::kBadInput,
               fmt::format("{} exists; choose another name, or replace it with {}", out.string(),
                           kForceFlag.name));

@@ -17,7 +17,7 @@ namespace vitrine::server::cli {
 inline constexpr Flag kForceFlag = {"--force", "", "replace output files that exist"};
 
 // Checks that `out` can be written. Call this before long work. Fails (kIo) if the folder cannot be
-// written to, and (kBadInput) if the file exists and is not empty, unless the user gave kForceFlag.
+// written to, and (kBadInput) if the file exists, unless the user gave kForceFlag.
 Expected<void> check_output(const Arguments& arguments, const std::filesystem::path& out);
 
 // Like check_output(), but `out` may be kStandardStream. Fails (kBadInput) if standard output is a

@@ -7,28 +7,24 @@
 
 namespace vitrine::server::cli {
 
-inline constexpr Flag kStripeFlag = {"--stripe", "METHOD",
-                                     "how the laser stripe is located in a picture: "
-                                     "derivative-of-gaussian, centre-of-mass or blais-rioux "
-                                     "(default: derivative-of-gaussian; reprocess and --resume "
-                                     "keep that of the scan)"};
-inline constexpr Flag kSamplingFlag = {"--sampling", "METHOD",
-                                       "points kept per stripe: adaptive (more at bends), "
-                                       "equidistant or paper (the method of Wang, Li and Li); see "
-                                       "acquisition/README.md (default: adaptive; reprocess and "
-                                       "--resume keep that of the scan)"};
+// The help texts name no defaults, because they differ: `scan` adds its own, `reprocess` keeps the
+// values of the scan.
+inline constexpr Flag kStripeFlag = {
+    "--stripe", "METHOD",
+    "how the laser stripe is located in a picture: derivative-of-gaussian, centre-of-mass or "
+    "blais-rioux"};
+inline constexpr Flag kSamplingFlag = {
+    "--sampling", "METHOD",
+    "which points of a stripe are kept: adaptive (more at bends), equidistant or paper (the "
+    "method of Wang, Li and Li)"};
 inline constexpr Flag kLengthFlag = {"--length", "5|10|15|20",
-                                     "number of measured points that --sampling reduces to one, on "
-                                     "average (default: 5; reprocess and --resume keep that of the "
-                                     "scan)"};
+                                     "number of measured points for each kept point, on average"};
 inline constexpr Flag kLargestAngleFlag = {
     "--largest-angle", "DEGREES",
     "largest angle between view and surface normal, 0 to 90, at which points far apart in depth "
-    "are still joined (default: 75; reprocess and --resume keep that of the scan)"};
-inline constexpr Flag kLargestHoleFlag = {
-    "--largest-hole", "MM",
-    "largest width of a hole that is closed; 0: none (default: 2; reprocess and --resume keep that "
-    "of the scan)"};
+    "are still joined"};
+inline constexpr Flag kLargestHoleFlag = {"--largest-hole", "MM",
+                                          "largest width of a hole that is closed; 0: none"};
 
 // Reads the processing flags, all of which the command must declare. Options without a flag on the
 // command line keep the values of `otherwise`.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the command-line flags for properties that a mesh file does not state, such as its unit
-// and its upward axis, and for its format.
+// Defines the command-line flags for the format of a mesh file, and for properties that the file
+// may not state, such as its unit and its upward axis.
 #pragma once
 
 #include "codec/import/formats.h"
@@ -15,9 +15,9 @@ inline constexpr Flag kUpFlag = {
 
 inline constexpr FixedText kImportChoice = join(
     kImportFormats, [](const ImportFormat& format) { return format.extension; }, "|", "|");
-inline constexpr Flag kFormatFlag = {
-    "--format", kImportChoice,
-    "format that IN must have, for example to check standard input (default: by its content)"};
+inline constexpr Flag kFormatFlag = {"--format", kImportChoice,
+                                     "format that IN must have, for example to check standard "
+                                     "input (default: recognised by content)"};
 
 // Reads kFormatFlag. Returns null if it is absent.
 tl::expected<const ImportFormat*, Fault> stated_format(const Arguments& arguments);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the mesh of a scan to a file and reports its figures.
+// Writes the mesh of a scan to a file and describes the mesh.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,14 +12,15 @@
 
 namespace vitrine::server::cli {
 
-// Returns the mesh format for the extension of the file that -o names. Fails if the extension is
-// not that of a format that can be written, or if check_output() fails.
+// Returns the mesh format for the extension of the file that -o names. Fails if no format with this
+// extension can be written, or if check_output() fails.
 tl::expected<MeshFormat, Fault> scan_output(const Arguments& arguments);
 
 CommandOutcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::string& out);
 
-// Returns the figures of a scanned mesh. `stripe` has the totals over all pictures. `calibration`
-// is the calibration's number, which identifies it.
+// Describes a scanned mesh: its numbers of vertices, faces and points, and the quality of the
+// pictures. `stripe` is the sum of the row counts of all pictures. `calibration` is the number that
+// identifies the calibration.
 nlohmann::json describe_scanned(const acquisition::ScannedSurface& surface,
                                 const acquisition::StripeCount& stripe,
                                 const acquisition::ScanRecord& record, int calibration,

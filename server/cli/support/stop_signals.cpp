@@ -6,7 +6,7 @@
 namespace vitrine::server::cli {
 namespace {
 
-// Signals that Ctrl-C, a service manager, and the closing of a terminal send.
+// Signals sent by Ctrl-C, by a service manager, and when a terminal is closed.
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t g_arrived = 0;

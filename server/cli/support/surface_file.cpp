@@ -12,8 +12,8 @@
 namespace vitrine::server::cli {
 namespace {
 
-// Returns those lines of a reader's report that name materials or pictures missing from the
-// texturing. Such lines contain " not carried: " and a reason.
+// Returns the lines of a reader's report about materials or pictures that the texturing lacks. Such
+// lines contain " not carried: " and a reason.
 std::vector<std::string> not_carried(const ImportedMesh& imported) {
   std::vector<std::string> lines;
   std::ranges::copy_if(imported.repairs, std::back_inserter(lines), [](const std::string& line) {

@@ -13,9 +13,9 @@ namespace vitrine::server::cli {
 // empty. Must run in the sandbox if the bytes are untrusted. Fails if a picture cannot be decoded,
 // or if the pictures together have more pixels than Limits allows.
 //
-// Readers bake factors and maps into the vertex colours, so a renderer that multiplies all three
-// would apply them twice. Therefore this function removes the vertex colours if a base colour has a
-// map, and otherwise the factors.
+// Readers of mesh files have already multiplied the vertex colours by the factors and maps, and a
+// renderer would multiply all three again. Therefore this function removes the vertex colours if a
+// base colour has a map, and otherwise the factors.
 Expected<std::unique_ptr<Textures>> take_textures(SurfaceInput& surface);
 
 }  // namespace vitrine::server::cli

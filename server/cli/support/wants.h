@@ -9,9 +9,9 @@
 
 namespace vitrine::server::cli {
 
-// Reads those of the flags --level, --triangles, --bytes and --error that the command declares, and
-// returns the detail target. Returns nullopt if the user gave none of them, which means the finest
-// level. Fails if the user gave several.
+// Reads the flags --level, --triangles, --bytes and --error, as far as the command declares them,
+// and returns the detail target. Returns nullopt if the user gave none of these flags, which means
+// the finest level. Fails if the user gave several of them.
 tl::expected<std::optional<Want>, Fault> read_want(const Arguments& arguments);
 
 // Fails with kState if no level of the model is as coarse or as fine as the target requires.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scans of shapes with a known surface: shapes that are star-shaped about the origin, seen from
-// above in several poses.
+// Simulated scans of shapes whose surface is known exactly. Each shape is star-shaped about the
+// origin, and each scan sees it from above in one of several poses.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,9 @@ double cube(const Vec3& direction);
 
 RigidMotion rotation_about(const Vec3& axis, double degrees, const Vec3& shift = {});
 
-// Returns the scan of the shape after it was moved by `pose`. The scan covers the directions whose
-// z is at least `from` after the rotation of the pose. All sight lines are radial.
+// Returns a scan of the shape after it was moved by `pose`. The scan covers the directions that
+// have a z of at least `from` after the pose's rotation. All sight lines pass through the shape's
+// origin.
 PoseScan scan_of(const Radius& radius, const RigidMotion& pose, double from,
                  const std::string& name = "scan");
 

@@ -11,7 +11,8 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr double kFocal = 3'000;  // focal length in pixels
-// Position in mm: x and y in the laser plane, then the distance from the plane.
+// Position of the camera, in mm: x and y in the laser plane, then the distance from the laser
+// plane.
 const Vec3 kCamera = {250, 60, 160};
 constexpr int kWidth = 1'300, kHeight = 1'030;  // size of a picture, in pixels
 
@@ -40,8 +41,8 @@ Calibration calibration() {
 TEST(CameraPlace, FollowsFromThePerspectiveOfTheMap) {
   const auto place = camera_place(calibration());
   ASSERT_TRUE(place.has_value());
-  // If the axis is parallel to y, rho equals x, and the lateral coordinate is opposite to the
-  // plane's normal.
+  // Here the turntable's axis is parallel to y. Therefore rho equals x, and the lateral coordinate
+  // points against the laser plane's normal.
   EXPECT_NEAR(place->rho, kCamera.x, 3);
   EXPECT_NEAR(place->z, kCamera.y, 3);
   EXPECT_NEAR(place->lateral, -(kCamera.z - .2), 3);

@@ -11,7 +11,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kSame = .5;  // reach in mm
+constexpr double kSame = .5;  // distance, in mm, within which two scans show the same surface
 
 TEST(FusedSurface, TwoPosesOfOneObjectBecomeOneSurface) {
   const RigidMotion pose = rotation_about({1, 0, 0}, 180, {3, 1, 2});
@@ -52,7 +52,8 @@ TEST(FusedSurface, AScanThatShowsNothingNewAddsNothingAndNoColours) {
   EXPECT_TRUE(mesh.attributes.colours.empty());
 }
 
-// The seam is not stitched: both rims stay open. A part that no scan has seen stays a hole.
+// Seams between scans are not stitched, so the rims on both sides of a seam stay open. A part that
+// no scan has seen stays a hole.
 TEST(FusedSurface, HolesAndSeamsStayOpen) {
   const RigidMotion pose = rotation_about({1, 0, 0}, 180);
   const std::vector scans = {scan_of(bumpy, {}, .2), scan_of(bumpy, pose, .2)};

@@ -12,7 +12,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kSpacing = 1, kReach = .5;  // in mm
+constexpr double kSpacing = 1, kReach = .5;  // distance between points, and reach of a match; in mm
 
 TEST(PointFeatures, DoNotDependOnThePose) {
   const SurfacePoints points = evenly_spaced(scan_of(bumpy, {}, 0).mesh, kSpacing);
@@ -32,7 +32,8 @@ TEST(MutualMatches, OnlyPairsThatChooseEachOtherMatch) {
   std::vector<PointFeature> from(2, PointFeature{}), to(20, PointFeature{});
   for (PointFeature& feature : to)
     feature[5] = 50;
-  // 18 is the closest feature for both points of `from`, but 0 is the closest for 18
+  // Feature 18 of `to` is the closest to both features of `from`. Feature 0 of `from` is the
+  // closest to feature 18, so only this pair matches.
   to[18][5] = 1, from[1][5] = 3;
   const auto matches = mutual_matches(from, to);
   ASSERT_EQ(matches.size(), 1U);
@@ -77,7 +78,8 @@ TEST(CrossedShare, TellsARightPoseFromAWrongOne) {
   EXPECT_TRUE(is_contradicted(judge_pair(from, to, wrong, kReach), kReach));
 }
 
-// If the scan itself has a surface on a line, light cannot have passed along it.
+// Light cannot have passed along a sight line that crosses the scan's own surface, so such a line
+// must be discarded.
 TEST(CrossedShare, LinesThatTheScanItselfBlocksDoNotCount) {
   PoseScan scan = scan_of(bumpy, {}, -.5);
   const std::size_t free = PreparedScan(scan, kSpacing).lines().size();

@@ -20,12 +20,12 @@ using test::ScannerNoise;
 using test::SyntheticScanner;
 using testing::HasSubstr;
 
-struct TruthError {  // rms errors over the map's hull, in mm
+struct TruthError {  // rms errors, in mm, over the area that the calibration covers
   double radial = 0, tangential = 0, axial = 0;
 };
 
-// Returns the errors of the positions that the calibration `c` gives for a grid of pixels. The mean
-// height and the mean angle are subtracted, because their origins are arbitrary.
+// Returns the position errors of the calibration `c` for a grid of pixels. Subtracts the mean
+// height error and the mean angle error, because the origins of height and angle are arbitrary.
 TruthError error_of(const SyntheticScanner& scanner, const Calibration& c) {
   double radial = 0, tangential = 0, tangential_sum = 0, axial = 0, axial_sum = 0, swings = 0;
   int count = 0;
@@ -61,7 +61,7 @@ TruthError error_of(const SyntheticScanner& scanner, const Calibration& c) {
       .axial = std::sqrt(std::max(0.0, axial / count - mean * mean))};
 }
 
-// Returns a calibration, which is computed once and used by most tests in this file.
+// Returns a calibration that is computed once for all tests in this file.
 const Expected<Calibrated>& calibrated() {
   static const Expected<Calibrated> result = calibrate(SyntheticScanner().pictures(4, 9, {}), {});
   return result;
@@ -111,7 +111,7 @@ TEST(Calibrate, BearsCornersAndStripePointsThatAreFarOff) {
   const TruthError error = error_of(scanner, result->calibration);
   EXPECT_LT(error.radial, 0.02);
   EXPECT_LT(error.axial, 0.02);
-  // The noise is 0.012 mm without the strays, which are a fifth of all points.
+  // A fifth of all points are strays, 40 pixels off. Without strays, the noise would be 0.012 mm.
   EXPECT_LT(result->calibration.noise, 0.03);
 }
 
@@ -177,7 +177,8 @@ TEST(Calibrate, ReportsWhatHeldOutPosesSay) {
   const auto& [c, report] = *calibrated();
   EXPECT_EQ(report.pictures, 36);
   EXPECT_EQ(report.held_out.size() > report.points * 9 / 10, true);
-  // The stripe's noise of 0.05 pixels is 0.012 mm here. The map's residuals contain this noise.
+  // The stripe's noise of 0.05 pixels is 0.012 mm here. The residuals of the plane map contain this
+  // noise.
   EXPECT_NEAR(c.noise, 0.012, 0.002);
   EXPECT_GT(c.residuals.rms, 0.008);
   EXPECT_LT(c.residuals.rms, 0.03);
@@ -199,7 +200,7 @@ TEST(Calibrate, ReportsWhatHeldOutPosesSay) {
 TEST(Calibrate, JudgesPosesThatItWasNotFittedTo) {
   CalibrationInput input = SyntheticScanner().pictures(2, 6, {.stripe = 0});
   for (ImagePoint& p : input.pictures[8].stripe)
-    p.u += 20;  // makes this pose contradict the others
+    p.u += 20;  // makes this pose contradict the other poses
   const auto result = calibrate(input, {});
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_GT(result->calibration.residuals.max, 1);
@@ -230,7 +231,7 @@ TEST(Calibrate, WritesItsReportAsJsonAndAsAPicture) {
   const std::string svg = residual_plot(c, report);
   EXPECT_THAT(svg, testing::StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox="));
   EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
-  const auto arrows = std::ranges::count(svg, 'M') - 1;  // excludes the scale's arrow
+  const auto arrows = std::ranges::count(svg, 'M') - 1;  // the arrow of the scale is not counted
   EXPECT_GT(arrows, 500);
   EXPECT_LE(arrows, 1500);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
@@ -316,7 +317,7 @@ TEST(Calibrate, RefusesTooFewMeasuredPosesAndUnknownDegrees) {
   EXPECT_THAT(
       message(std::span(points).first(26), 3),
       HasSubstr("the points have 2 different pose numbers, a calibration needs at least 3"));
-  std::vector<Correspondence> apart;  // points of each pose lie outside the hull of the other poses
+  std::vector<Correspondence> apart;  // each pose's points lie outside the hull of all other points
   for (int i = 0; i < 75; ++i) {
     const int pose = i / 25;
     const double u = 40 * (i % 5) + 900 * (pose % 2), v = 40 * (i / 5 % 5) + 700 * (pose / 2);

@@ -41,7 +41,7 @@ Calibration example(const std::string& camera = "CAM-1", const SensorRegion& reg
 }
 
 const Coverage kCovered{
-    .x_low = -30, .x_high = 30, .y_low = 0, .y_high = 80};  // the diagonal is 100 mm
+    .x_low = -30, .x_high = 30, .y_low = 0, .y_high = 80};  // 60 x 80 mm, so its diagonal is 100 mm
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file);

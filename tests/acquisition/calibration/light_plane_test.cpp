@@ -57,7 +57,7 @@ TEST(LightPlane, ResolvesTheAxisIntoItsFrame) {
   plane.y = {0, -1, 0};
   plane.normal = {0, 0, -1};
   const CameraFrameAxis axis{cv::normalize(cv::Vec3d(-0.1, 1, 0.02)), {8, 26, 299}};
-  // In the plane's frame, this axis passes through (3, -20, 1).
+  // In the plane's coordinate frame, this axis passes through the point (3, -20, 1).
   const TurntableAxis found = plane.axis(axis);
   EXPECT_TRUE(found.is_clockwise);
   EXPECT_NEAR(found.b, 0.1, 1e-12);

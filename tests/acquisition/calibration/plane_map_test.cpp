@@ -13,8 +13,8 @@ using testing::HasSubstr;
 
 constexpr int kColumns = 1300, kRows = 1030;
 
-// Returns the true position in a laser plane that is seen at 30 degrees. x and y together contain
-// every kind of cubic term, with small coefficients.
+// Returns the true position of a pixel in a laser plane that is seen at 30 degrees. Together, x and
+// y contain every kind of cubic term, with small coefficients.
 PlanePoint truth(double u, double v) {
   const double s = u / 650 - 1, t = v / 515 - 1;
   return {60 * s + 4 * s * t - 1.5 * s * s * s + 0.3 * s * s * t + 2,

@@ -87,8 +87,8 @@ CalibrationInput SyntheticScanner::pictures(int placements, int angles,
   const CharucoTarget t = target();
   CalibrationInput input{"CAM-1", {0, 0, kWidth, kHeight}, t, {}};
   for (int placement = 0; placement < placements; ++placement) {
-    // Places the target's centre beside the axis. The target's x points to the right, its y
-    // downwards or upwards.
+    // Places the target's centre beside the axis. The target's x axis points to the right, and its
+    // y axis points down or up.
     const double beside = placements == 1 ? 10 : -20 + 40.0 * placement / (placements - 1);
     const cv::Affine3d shift(cv::Matx33d::eye(), {-4.0 * t.squares_x, -4.0 * t.squares_y, 0});
     const cv::Affine3d lean(

@@ -25,8 +25,8 @@ class SyntheticScanner {
   static constexpr int kWidth = 1300, kHeight = 1030;
   static CharucoTarget target();
 
-  // Returns pictures of `placements` placements of the target on the table. Each placement is shown
-  // at `angles` angles of the table, around the angle at which the target faces the camera.
+  // Returns pictures of the target in `placements` places on the table. Each place is shown at
+  // `angles` angles of the table, around the angle at which the target faces the camera.
   CalibrationInput pictures(int placements, int angles, const ScannerNoise& noise) const;
 
   // Returns the point of the laser plane that a pixel sees, in mm in the camera's frame.

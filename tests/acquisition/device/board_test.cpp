@@ -238,7 +238,8 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
 TEST_P(EveryBoard, StaysOffWhenACallBeginsAsItIsStopped) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   for (int i = 0; i < 10; ++i) {
-    // open() succeeds only after the guardian of the previous board has switched that board off.
+    // After a stop, a guardian process switches the previous board off. open() succeeds only after
+    // the guardian has done so.
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     std::thread turning([&] { (void)(*board)->turn_to(3600); });
@@ -365,8 +366,8 @@ TEST(Board, IsFoundBySerialNumberAndByPort) {
   EXPECT_TRUE(open_board(selector, quick()));
 }
 
-// A guardian that logs its input: its arguments, which name the board to guard, and the word that
-// dismisses it.
+// A fake guardian, the process that switches off an abandoned board. It logs its arguments, which
+// name the board, and the word that it receives when it is dismissed.
 class WritingGuardian {
  public:
   WritingGuardian() {

@@ -43,8 +43,8 @@ class SimulatedCamera {
     ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(camera_);
     EXPECT_TRUE(arv_fake_camera_write_register(fake, static_cast<guint32>(address), value));
   }
-  // Loses the share `part` of all packets. Each run loses the same packets. Lost packets are not
-  // sent again.
+  // Lets the camera lose the share `part` of all packets. Each run loses the same packets. The
+  // camera does not send lost packets again.
   void lose_packets(double part) {
     g_random_set_seed(1);
     g_object_set(camera_, "gvsp-lost-ratio", part, nullptr);
@@ -109,8 +109,8 @@ TEST_F(CameraTest, WhoseFramesAllLosePacketsIsAnError) {
       << frame.error().message;
 }
 
-// Another client changes the camera's settings. A frame then has as many bytes as before but
-// another width and height.
+// Another client changes the camera's settings. Frames then have another width and height, but the
+// same number of bytes.
 TEST_F(CameraTest, WhoseFramesHaveAnotherShapeOrFormatIsAnError) {
   SimulatedCamera simulated(kAddress);
   auto camera = open_camera({.address = kAddress});
@@ -173,8 +173,8 @@ TEST_F(CameraTest, ThatIsGoneIsAnErrorAndIsOpenedAnewWhenItIsBack) {
   EXPECT_TRUE((*camera)->capture());
 }
 
-// A client repeats a trigger that was not acknowledged. A camera that is plugged in again too early
-// would execute the repeated trigger.
+// A client repeats a trigger until the camera acknowledges it. A camera that is plugged in again
+// during these repeats would execute the trigger.
 TEST_F(CameraTest, ThatIsGoneIsTriggeredNoMoreOnceTheRigPutsItsCableBack) {
   auto simulated = std::make_unique<SimulatedCamera>(kAddress);
   auto camera = open_camera({.address = kAddress});

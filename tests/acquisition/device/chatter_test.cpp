@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A port that echoes its input and delivers an unrequested line at each read.
+// A port that echoes its input. Each read also returns a line that nobody requested.
 class ChatteringPort : public SerialPort {
  public:
   const std::string& name() const override { return name_; }

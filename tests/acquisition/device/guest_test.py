@@ -27,7 +27,7 @@ MODULES = ("usb-common usbcore xhci-hcd xhci-pci usbserial ftdi_sio cdc-acm conf
 KERNEL, BIN, TESTS = (Path(word) for word in sys.argv[1:4])
 PROGRAMS = [TESTS / "drive_board", TESTS / "serve_firmware", BIN / "vitrine-guardian"]
 FTDI, ACM = "0403:6001", "0525:a4a7"
-PATIENCE = 240  # time limit in seconds; enough on a busy machine
+TIMEOUT = 240  # time limit in seconds; enough on a busy machine
 
 
 def missing():
@@ -94,7 +94,7 @@ def run():
     with tempfile.TemporaryDirectory() as name:
         line = Path(name) / "line"
         guest = boot(Path(name), line)
-        timer = threading.Timer(PATIENCE, guest.kill)
+        timer = threading.Timer(TIMEOUT, guest.kill)
         timer.start()
         firmware = serve(line)
         console = ""

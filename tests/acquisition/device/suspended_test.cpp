@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that a process that was suspended in the middle of a motion's commands does not complete
-// the motion: another process may have used the board since.
+// Tests a process that is suspended while it sends the commands of a motion. It must not complete
+// the motion afterwards, because another process may have used the board since.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -18,7 +18,8 @@ using testing::HasSubstr;
 
 constexpr std::chrono::milliseconds kAnswerTime{20};
 
-// A port with a board that answers at once. The process is suspended while it writes `fatal`.
+// A port with a board that answers at once. When the port writes the command `fatal`, the process
+// is suspended for longer than a board may take to answer.
 class SuspendedPort : public SerialPort {
  public:
   const std::string& name() const override { return name_; }

@@ -32,7 +32,8 @@ struct Rule {
   }
 };
 
-// Returns the numbers that a match permits: 6001 and 6015 for ATTR{key}=="6001|6015".
+// Returns the numbers that a udev match permits. For ATTR{key}=="6001|6015", these are 6001 and
+// 6015.
 std::vector<int> ids_in(const std::string& line, const std::string& key) {
   std::vector<int> ids;
   const std::string begin = "ATTR{" + key + "}==\"";

@@ -56,7 +56,7 @@ TEST(Judge, NoiseInRowsHereAndThereIsNoStripe) {
   std::vector<StripePoint> noise;
   for (int row = 0; row < 500; row += 2)
     noise.push_back({row, 100, 9, 0});
-  noise.push_back({499, 900, 9, 0});  // in the next row, but far from the point in this row
+  noise.push_back({499, 900, 9, 0});  // far from the point in the row before
   EXPECT_THAT(verdict(judge(count(noise))), StartsWith("no stripe: 0 rows"));
 }
 

@@ -55,7 +55,7 @@ TEST(ProfileOf, EachPointIsAboutTheAxisAndKeepsItsRowAndFlags) {
   }
 }
 
-// [WLL] eq. 1: if the axis is upright in the laser plane, rho is x - a, and z is y.
+// [WLL] eq. 1: if the axis lies upright in the laser plane, rho = x - a and z = y.
 TEST(ProfileOf, AnUprightAxisInTheLaserPlaneIsTheOneOfThePaper) {
   const StripePoint stripe[] = {{.row = 400, .u = 170}};
   const Profile profile = profile_of(stripe, known({.a = 1.5}), 0);

@@ -46,7 +46,8 @@ TEST(PaperSampling, ABlockWithinThreeSigmaBecomesItsMean) {
   EXPECT_NEAR(kept.points[1].at.z, -.55, 1e-12);
 }
 
-// One of 15 points is off by 1. Then |x - mean| = 14/15 = .9333 exceeds 3 s = .7746.
+// One of 15 points is off by 1. Its distance from the mean, 14/15 = .9333, exceeds three standard
+// deviations, .7746.
 TEST(PaperSampling, ABlockWithAPointBeyondThreeSigmaStaysAsItIs) {
   std::vector<double> rho(30, 10);
   rho[7] = 11;
@@ -56,8 +57,8 @@ TEST(PaperSampling, ABlockWithAPointBeyondThreeSigmaStaysAsItIs) {
   EXPECT_EQ(kept.points[15].at.rho, 10);
 }
 
-// No value deviates from the mean by more than (n - 1) / sqrt(n) standard deviations. Up to n = 10,
-// that is less than 3, so outliers are averaged too.
+// In n points, no value deviates from the mean by more than (n - 1) / sqrt(n) standard deviations.
+// Up to n = 10, this is less than 3, so outliers are averaged too.
 TEST(PaperSampling, UpToTenPointsNothingIsEverBeyondThreeSigma) {
   for (const int length : {5, 10}) {
     std::vector<double> rho(100, 10);
@@ -69,8 +70,8 @@ TEST(PaperSampling, UpToTenPointsNothingIsEverBeyondThreeSigma) {
   }
 }
 
-// The last block may have fewer points, so the ratio is slightly larger than 1 / L. [WLL] table 1
-// states .2046 and .2012.
+// Each block of L = 5 points is replaced by its mean. The last block may have fewer points, so the
+// ratio is slightly larger than 1 / L. [WLL] table 1 states .2046 and .2012.
 TEST(PaperSampling, KeepsAFifthAtFive) {
   std::mt19937_64 random(3);
   std::size_t before = 0, after = 0;
@@ -172,8 +173,8 @@ TEST(AdaptiveSampling, KeepsTheEndsAndDoesNotCrossThem) {
   EXPECT_EQ(kept.points[3].flags, 0);
 }
 
-// A polyline through the means of points lies on the inner side of a bend, and its error is a
-// quarter larger than necessary.
+// A polyline through the means of points would lie on the inner side of a bend. Its error would be
+// a quarter larger than necessary.
 TEST(AdaptiveSampling, LiesInTheMiddleOfABend) {
   std::vector<double> round;
   for (int i = -100; i <= 100; ++i)
@@ -190,8 +191,7 @@ TEST(AdaptiveSampling, LiesInTheMiddleOfABend) {
   EXPECT_LT(std::abs(sum / static_cast<double>(kept.points.size() - 1)), .6 * sagitta);
 }
 
-// A flat profile needs few points. A detailed profile must get the points that the flat one does
-// not need.
+// A flat profile needs few points. The points that it saves must go to a detailed profile.
 TEST(AdaptiveSampling, SharesPointsAmongProfiles) {
   std::vector<double> rough(200, 30);
   for (std::size_t i = 0; i < rough.size(); i += 3)

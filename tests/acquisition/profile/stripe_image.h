@@ -18,7 +18,7 @@ struct StripeImage {
   double noise = 0;                // grey levels: standard deviation, independent in each picture
   double ambient = 0;              // grey levels of ambient light at full albedo, in both pictures
   std::function<double(double, double)> albedo = [](double, double) { return 1.; };
-  std::function<double(double)> second;  // centre of a second stripe, like `centre`
+  std::function<double(double)> second;  // returns the centre of a second stripe, as `centre` does
   double second_peak = 0;
   std::uint64_t seed = 1;
 };

@@ -69,8 +69,8 @@ TEST(Stripe, StaysWithinATenthOfAPixelUnderSpeckleNoiseAndAmbientLight) {
   }
 }
 
-// The albedo changes on the stripe's flank. (A change in the middle of the stripe would shift the
-// results of all three methods more.)
+// The albedo changes on the stripe's flank. A change in the middle of the stripe would shift the
+// results of all three methods more.
 TEST(Stripe, IsMovedLessByAnAlbedoEdgeThanItsCentreOfMass) {
   const StripeImage image{.centre = [](double v) { return 155 + .005 * v; },
                           .ambient = 30,
@@ -158,7 +158,7 @@ TEST(Stripe, AGlintOnAFewRowsIsNoSurface) {
   EXPECT_EQ(stripe_of(image).size(), 200);
 }
 
-// The two peaks belong to one unevenly lit stripe, because the image is not dark between them.
+// The image is not dark between the two peaks, so both peaks belong to one unevenly lit stripe.
 TEST(Stripe, AStripeThatRunsAlongTheRowsIsOneSurface) {
   const StripeImage image{.centre = [](double) { return 150.; },
                           .sigma = 3,

@@ -40,7 +40,7 @@ int lines(const std::string& text) {
 }
 
 TEST(RigCommandLine, HelpAndVersionAreAnswered) {
-  EXPECT_THAT(rig({"--help"}).output, StartsWith("usage: vitrine-rig"));
+  EXPECT_THAT(rig({"--help"}).output, StartsWith("Usage: vitrine-rig"));
   EXPECT_THAT(rig({"--version"}).output, StartsWith("vitrine-rig 0."));
 }
 

@@ -7,7 +7,7 @@ namespace {
 using KeptTable = AtRig;
 
 // The scan's first motion takes 45 seconds, so the rig is certainly killed during that motion.
-TEST_F(KeptTable, IsWhereTheMotionEndsAmidWhichTheRigIsKilled) {
+TEST_F(KeptTable, KeepsTheEndOfAMotionDuringWhichTheRigIsKilled) {
   const auto result = with_object(
       "trap '' TERM; \"$vitrine\" scan --config rig.json --steps 8 -o out.ply > scan.log 2>&1 & "
       "scan=$!; until [ -e table ]; do kill -0 $scan || exit; sleep 0.02; done; "

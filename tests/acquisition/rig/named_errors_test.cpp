@@ -29,8 +29,8 @@ TEST_F(NamedErrors, ALaserThatDoesNotLightIsNoStripe) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out"})));
 }
 
-// Without noise, the pictures with and without laser are equal. The error must not state that the
-// camera is at fault.
+// Without noise, the pictures with and without laser are equal. The error must not blame the camera
+// for that.
 TEST_F(NamedErrors, BeforeAnIdealCameraItIsNoStripeEither) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out", "--ideal"})));
 }
@@ -41,7 +41,7 @@ TEST_F(NamedErrors, ALaserThatGoesOutIsALostStripe) {
                     HasSubstr("check that the laser is on"), HasSubstr("start a new scan")));
 }
 
-// The object's surface resembles painted bone, on which one of the two stripes is often weaker.
+// The object looks like painted bone. On such a surface, one of the two stripes is often weaker.
 TEST_F(NamedErrors, TheOtherLaserMakesTwoStripes) {
   EXPECT_THAT(error_of(at_rig(kScan, {"--mesh", VITRINE_SOURCE_DIR "/tests/models/skull.obj",
                                       "--fault", "second-stripe"})),
@@ -65,8 +65,8 @@ TEST_F(NamedErrors, ABarePlateIsAnEmptyTurntable) {
               AllOf(StartsWith("vitrine: empty turntable: "), HasSubstr("put an object on it")));
 }
 
-// rig.json has no member "rig" here, so the program asks the operator on the terminal. The test
-// presses Enter without placing the target.
+// Without the member "rig" in rig.json, the program asks an operator at the terminal to place the
+// target. The test presses Enter without placing it.
 TEST_F(NamedErrors, ATargetThatWasNotPutThereIsNeverSeen) {
   const std::string without_rig = "sed -zi 's/,\\s*\"rig\": {[^}]*}//' rig.json; ";
   EXPECT_THAT(error_of(with_object(without_rig + "printf '\\ndone\\n' | \"$vitrine\" calibrate "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the camera with an independent GigE Vision client: Aravis itself.
+// Tests the simulated camera with an independent GigE Vision client, the library Aravis.
 #include "acquisition/rig/rig_scanner.h"
 
 #include <arv.h>
@@ -23,8 +23,8 @@ using BufferPtr = std::unique_ptr<ArvBuffer, Unref>;
 
 const std::string kAddress = "127.0.0.1";
 
-// Gives this process a network of its own, because tests run side by side and GigE Vision's port is
-// fixed. enter_private_network() must be called before a second thread exists.
+// Gives this process a private network, because tests run side by side and the port of GigE Vision
+// is fixed. enter_private_network() must be called before a second thread exists.
 class PrivateNetwork final : public ::testing::Environment {
  public:
   void SetUp() override {

@@ -21,8 +21,8 @@ struct Deviation {
   int rows = 0;
 };
 
-// Returns the deviation, in pixels, of the rendered stripe's centre from the projected cut in each
-// row.
+// Compares the centre of the rendered stripe with the projected cut in each row. Returns the
+// deviation in pixels.
 Deviation deviation(const Optics& optics, const Subject& subject, const Cut& cut) {
   Renderer renderer(optics, &subject, ideal());
   const Exposure bright{.us = 8000};  // a longer exposure makes rounding matter less
@@ -33,8 +33,8 @@ Deviation deviation(const Optics& optics, const Subject& subject, const Cut& cut
     const auto point = cut(optics.laser, z);
     const auto pixel = point ? project(optics.camera, *point) : std::nullopt;
     if (!pixel) continue;
-    // The expected centre in this row, interpolated between the cut at `z` and the cut slightly
-    // higher.
+    // The expected centre in this row: interpolates between the cut at height `z` and the cut
+    // slightly higher.
     const int v = static_cast<int>(std::lround(pixel->v));
     const auto beside = project(optics.camera, *cut(optics.laser, z + 0.1));
     const double u = pixel->u + (v - pixel->v) * (beside->u - pixel->u) / (beside->v - pixel->v);
@@ -78,7 +78,7 @@ TEST(Stripe, OnABallItIsWhereTheSheetCutsTheBall) {
         const double y = sheet_y(laser, z);
         const double rest =
             kRadius * kRadius - std::pow(z - middle.z, 2) - std::pow(y - middle.y, 2);
-        if (rest < 200) return std::nullopt;  // near the poles, a row shows much of the cut
+        if (rest < 200) return std::nullopt;  // near the poles, the cut runs almost along the rows
         return Vec3{middle.x + std::sqrt(rest), y, z};
       });
   EXPECT_GT(found.rows, 70);

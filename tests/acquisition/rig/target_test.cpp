@@ -18,7 +18,7 @@ struct Corner {
   ImagePoint at;
 };
 
-// Returns the corners that OpenCV finds in a picture without further information.
+// Returns the corners that OpenCV finds in a picture without knowing the camera.
 std::vector<Corner> detect(const Frame& frame) {
   const cv::Mat image(frame.height, frame.width, CV_8U,
                       const_cast<std::uint8_t*>(frame.pixels.data()));
@@ -89,7 +89,7 @@ TEST(Target, ThePoseOnTheTableTurnsWithItAndOthersDoNot) {
   ASSERT_GE(corners.size(), 30U);
   for (const Corner& corner : corners) {
     const ImagePoint truth = *project(optics.camera, in_world(turned, on_sheet(corner.id)));
-    EXPECT_NEAR(corner.at.u, truth.u, 3) << corner.id;  // allows for the motor's error
+    EXPECT_NEAR(corner.at.u, truth.u, 3) << corner.id;  // 3 pixels allow for the motor's error
     EXPECT_NEAR(corner.at.v, truth.v, 3) << corner.id;
   }
   const auto held = detect(dark_frame(2, 0, 0)), still = detect(dark_frame(2, 0, 30));

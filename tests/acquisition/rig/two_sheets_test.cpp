@@ -14,8 +14,8 @@
 namespace vitrine::acquisition::rig::test {
 namespace {
 
-// Distances of the two sheets from the axis, in mm. They are so large that the first and the last
-// profile are not joined.
+// Distances of the two sheets from the axis, in mm. At these distances, the first and the last
+// profile are too far apart to be joined.
 constexpr double kFront = 38, kBehind = 16;
 constexpr double kHeight = 40;  // in mm: height of the rear sheet; the front sheet is half as high
 constexpr double kStep = .5;    // angle between profiles, in degrees
@@ -28,7 +28,7 @@ TriangleMesh two_sheets() {
   return mesh;
 }
 
-// Returns profiles at those angles at which both sheets face the laser.
+// Returns profiles at angles at which both sheets face the laser.
 std::vector<Profile> profiles() {
   const Optics optics = optics_of(1);
   const Calibration calibration = perfect_calibration(1);

@@ -107,8 +107,8 @@ class FakeBoard : public Board {
     const std::lock_guard lock(world_.mutex);
     return world_.position_known ? std::optional(world_.degrees) : std::nullopt;
   }
-  // Does not change the angle that position() returns. The caller must therefore declare the angle
-  // at which the table really stands.
+  // position() still returns the true angle afterwards. If a caller declares a wrong angle, later
+  // calls of turn_to() turn the table to wrong angles.
   Expected<void> set_position(double degrees) override {
     if (auto there = use("set position"); !there) return there;
     const std::lock_guard lock(world_.mutex);
@@ -142,7 +142,7 @@ class FakeBoard : public Board {
   }
 
  private:
-  // Counts a call of the board. When the board is lost, switches laser and motor off, because an
+  // Counts a call of the board. If the board is lost, switches laser and motor off, because an
   // unplugged board has no power.
   Expected<void> use(const std::string& name) {
     auto there = call(world_, name);

@@ -17,7 +17,7 @@ namespace vitrine::test {
 
 inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // size of a picture, in pixels
 inline constexpr double kFakePixel = 0.25;                // width of a pixel in mm
-// First row in which kTwoSurfaces shows a second surface behind the first.
+// First row in which the object kTwoSurfaces shows a second surface behind the first.
 inline constexpr int kFakeOtherRow = 12;
 inline constexpr const char* kFakeSerial = "fake-1";
 
@@ -38,7 +38,7 @@ struct FakeWorld {
   std::function<bool(const std::string& call, int count)> fault;
   std::function<void(const std::string& call, int count)>
       meanwhile;  // called at each call of a device, to simulate another thread
-  // Returns whether capture number `count` delivers the preceding frame again.
+  // Returns whether capture number `count` must return the preceding frame again.
   std::function<bool(int count)> repeats;
   std::string serial = kFakeSerial;
   FakeObject object = FakeObject::kColumn;
@@ -55,10 +55,10 @@ struct FakeWorld {
 
 Scanner fake_scanner(FakeWorld& world, const std::filesystem::path& calibrations);
 
-// Returns the column's radius, in mm, at that angle of the table.
+// Returns the column's radius, in mm, at the table angle `degrees`.
 double fake_radius(double degrees);
 
-// Returns the calibration of the fake camera. Its number is not set.
+// Returns the calibration of the fake camera. The caller must set the calibration's number.
 Calibration fake_calibration();
 
 }  // namespace vitrine::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Injects every fault at every moment. Laser and motor must be switched off, no profile may be
-// lost, and the final mesh must be the same in every bit.
+// Injects faults at every step of a scan. After each fault, laser and motor must be off, no profile
+// may be lost, and the final mesh must have the same bits as without faults.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -34,7 +34,8 @@ TEST_F(ScanTest, ADeviceUnpluggedAtAnyCallIsOpenedAnewAndNothingIsLost) {
           return true;
         };
         auto scan = this->scan(name);
-        // A scanner that fails on the first attempt is not tried again.
+        // The fixture allows no retries until the first checks have passed, so a fault during these
+        // checks makes the scan fail.
         if (run(*scan) == ScanState::kFailed) {
           expect_dark(world_);
           EXPECT_TRUE(is_lost);
@@ -48,8 +49,8 @@ TEST_F(ScanTest, ADeviceUnpluggedAtAnyCallIsOpenedAnewAndNothingIsLost) {
   }
 }
 
-// Recreates the state in which a process killed at that moment leaves the scan: its folder, and a
-// table that completes the current motion.
+// Copies the scan's folder at the moment at which a process is killed. The table still completes
+// the current motion. A new process must complete the scan from this copy.
 TEST_F(ScanTest, AProcessKilledAtAnyStepLosesNothing) {
   const std::string expected = undisturbed();
   for (const bool forgets : {false, true}) {
@@ -71,7 +72,7 @@ TEST_F(ScanTest, AProcessKilledAtAnyStepLosesNothing) {
         if (!killed) break;  // the scan makes no further call of this kind
         world_.degrees = *stood_at, world_.forgets_position = forgets;
         auto opened = Scan::reopen(scanner(), path(name + "-left"), impatient());
-        // Before the first checks have passed, there is no scan to resume.
+        // There is no scan to resume until the first checks have passed.
         if (!opened) continue;
         EXPECT_EQ(run(**opened), ScanState::kDone);
         EXPECT_EQ(mesh_text(**opened), expected) << name;
@@ -126,7 +127,7 @@ TEST_F(ScanTest, ATableThatDoesNotTurnEndsTheScanAtTheSecondTry) {
   EXPECT_EQ(world_.calls["turn"], 6);
   EXPECT_EQ(world_.calls["open board"], 2);
   world_.fault = {};
-  world_.forgets_position = true;  // the table then stands at the end of its last complete motion
+  world_.forgets_position = true;  // the table then stands where its last complete motion ended
   EXPECT_EQ(run(scan), ScanState::kDone);
   EXPECT_EQ(mesh_text(scan), undisturbed());
 }

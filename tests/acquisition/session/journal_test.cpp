@@ -14,8 +14,8 @@ namespace {
 
 class Journal : public testing::Test {
  protected:
-  // For each step i, writes a turn and a profile with i points. Notes the file's size after each
-  // record.
+  // Writes two records for each step i: that the table turns to i, and a profile with i points.
+  // Stores the file's size after each record in ends_.
   void write(int profiles) {
     JournalContents contents;
     auto journal = ProfileJournal::open(path_, contents);

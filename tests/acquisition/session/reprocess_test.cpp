@@ -12,8 +12,8 @@ using testing::HasSubstr;
 
 class Reprocess : public ScanTest {
  protected:
-  void scan_once(bool keep_frames) {
-    auto scan = this->scan("scan", {.steps = kSteps, .keep_frames = keep_frames});
+  void scan_once(bool keeps_frames) {
+    auto scan = this->scan("scan", {.steps = kSteps, .keeps_frames = keeps_frames});
     ASSERT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
     surface_ = scan->surface();
   }
@@ -34,7 +34,7 @@ TEST_F(Reprocess, WithTheSameParametersTheMeshIsTheSame) {
 
 TEST_F(Reprocess, WhatTheStripeShowedIsToldAsTheScanToldItPausedOrNot) {
   world_.object = FakeObject::kTwoSurfaces;
-  auto scan = this->scan("scan", {.steps = kSteps, .keep_frames = true});
+  auto scan = this->scan("scan", {.steps = kSteps, .keeps_frames = true});
   world_.meanwhile = [&](const std::string& call, int count) {
     if (call == "turn" && count == 5) (void)scan->pause();
   };

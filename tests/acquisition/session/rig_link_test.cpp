@@ -15,7 +15,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// A fake rig that answers each line with the next of `answers`, then closes the connection.
+// A fake rig that answers each line with the next element of `answers`. After the last answer, it
+// closes the connection.
 class FakeRig {
  public:
   FakeRig(const std::filesystem::path& path, std::vector<std::string> answers)

@@ -13,7 +13,7 @@ ScanRecord example_record() {
   ScanRecord record;
   record.request = {.steps = 360,
                     .exposure_us = 1234.5,
-                    .keep_frames = true,
+                    .keeps_frames = true,
                     .processing = {.stripe = {.method = StripeMethod::kBlaisRioux, .width = 1.1},
                                    .sampling = {.method = SamplingMethod::kPaper, .window = 20},
                                    .surface = {.largest_angle = 71, .largest_hole = 0.1}}};

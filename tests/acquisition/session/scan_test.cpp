@@ -29,7 +29,8 @@ TEST_F(ScanTest, AnUndisturbedScanPassesThroughItsStatesAndEndsInAMesh) {
     if (seen.empty() || seen.back() != state) seen.push_back(state);
   };
   EXPECT_EQ(run(*scan), ScanState::kDone);
-  // The devices are already closed when meshing starts.
+  // `meanwhile` is called only while devices are in use. The devices are already closed when
+  // meshing starts, so it sees no later state.
   EXPECT_THAT(seen, ElementsAre(ScanState::kChecking, ScanState::kScanning));
   ASSERT_TRUE(scan->surface());
   EXPECT_GT(scan->surface()->mesh.faces.size(), 50u);
@@ -332,8 +333,8 @@ TEST_F(ScanTest, AStripeThatIsLostOnTheWayStopsTheScanOnce) {
     world_.object = is_lost ? FakeObject::kNothing : FakeObject::kColumn;
   };
   EXPECT_EQ(run(*scan), ScanState::kFailed);
-  // The first motion belongs to the checks before the scan, so the scan fails before its first
-  // step.
+  // The table's first motion is part of the checks before the scan. Motion 12 is therefore step 11,
+  // at which the stripe is lost.
   EXPECT_THAT(scan->status().error->message,
               HasSubstr("the stripe is lost since step 11 of the scan, no stripe: 0 rows of 5"));
   EXPECT_EQ(scan->status().steps_done, 10) << "the others are measured again";
@@ -365,8 +366,8 @@ TEST_F(ScanTest, StepsThatALaserMissedAreMeasuredAgainOnceItIsBack) {
   EXPECT_EQ(mesh_text(*scan), undisturbed());
 }
 
-// The process was killed after it stored the step that shows the loss, but before it recorded the
-// loss.
+// A process is killed after it has stored the step at which the stripe is lost, but before it has
+// recorded the loss.
 TEST_F(ScanTest, ACrashJustWhenTheStripeIsLostDoesNotHideThat) {
   auto scan = this->scan();
   world_.meanwhile = [&](const std::string& call, int) {
@@ -378,7 +379,7 @@ TEST_F(ScanTest, ACrashJustWhenTheStripeIsLostDoesNotHideThat) {
   const auto message = scan->status().error->message;
   const auto journal = scan->folder().journal();
   scan.reset();
-  // Bytes of the last record: header, body and checksum.
+  // Size of the journal's last record, in bytes: header, body and checksum.
   constexpr std::uintmax_t kNote = 8 + 8 + 8;
   std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - kNote);
   scan = reopened();
@@ -387,7 +388,7 @@ TEST_F(ScanTest, ACrashJustWhenTheStripeIsLostDoesNotHideThat) {
   EXPECT_EQ(scan->status().steps_done, 4);
 }
 
-// The scan must stop at the same step, whether or not it was paused between steps.
+// The scan must stop at the same step whether or not it is paused between two steps.
 TEST_F(ScanTest, APauseWhileTheStripeIsLostDoesNotHideThat) {
   constexpr int kManySteps = 40;
   const auto run_with_pause_at = [&](int pause) {

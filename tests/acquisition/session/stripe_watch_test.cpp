@@ -7,12 +7,12 @@
 namespace vitrine::test {
 namespace {
 
-constexpr int kTurn = 80;  // steps in a revolution; each eighth (ten steps) is judged as a whole
+constexpr int kTurn = 80;  // steps in a revolution; the watch judges ten steps at a time
 
 class Watched {
  public:
-  // Returns how often the watch reports within `steps` steps if `doubled` % of the rows show two
-  // lines.
+  // Simulates `steps` steps in which `doubled` % of the rows show two lines. Returns the number of
+  // reports of the watch.
   int told(int steps, std::uint64_t doubled) {
     int told = 0;
     for (int i = 0; i < steps; ++i) {
@@ -30,8 +30,8 @@ class Watched {
 TEST(StripeWatch, AnObjectThatHoversAboutTheLimitIsToldOnce) {
   Watched watched;
   EXPECT_EQ(watched.told(10, 60), 1);
-  // The sums over ten steps are alternately below and above the limit, which is one half of the
-  // rows.
+  // Over ten steps, the share of rows with two lines is alternately below and above the limit of
+  // one half.
   for (int i = 0; i < 20; ++i)
     EXPECT_EQ(watched.told(2, 0) + watched.told(2, 100), 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/surface/strands.h"
+#include "acquisition/surface/steps.h"
 
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ TEST(Strands, OfOnePointARowAreOne) {
   EXPECT_EQ(strands_of({}).size(), 1);
 }
 
-// The points within a row may be in either order.
+// The two points in a row may be in either order.
 TEST(Strands, FollowTheSurface) {
   std::mt19937 random(1);
   Profile profile{30, {}};
@@ -57,8 +57,8 @@ TEST(Strands, ASurfaceThatIsAloneAgainStaysInItsStrand) {
   EXPECT_THAT(rhos(strands[1]), testing::ElementsAre(12, 12, 12, 12));
 }
 
-// If the nearest strand has no point in the row of the given point, its position in that row is
-// interpolated. If the surface ends between two points of the strand, there is no such position.
+// If the nearest strand has no point in the row of the given point, its position there is
+// interpolated. There is no such position if the surface ends between two points of the strand.
 TEST(NearestStrand, IsNearAtThePointsRow) {
   Profile sparse{0, {point(0, 20), point(40, 20)}}, dense{0, {}};
   for (int row = 0; row <= 40; ++row)

@@ -119,7 +119,7 @@ TEST(Surface, OfAPlaneBesideTheAxisIsTheSameCylinder) {
     EXPECT_NEAR(std::hypot(p.x, p.y), 20, 1e-9);
 }
 
-// The camera sees the inner wall of this cup only beyond the axis.
+// A cup: the camera sees its inner wall only on the other side of the axis, where rho is negative.
 TEST(Surface, BeyondTheAxisFacesTheLaserToo) {
   auto profiles = scan_of(cylinder(20), {.rows = 40});
   for (Profile& profile : profiles) {
@@ -143,7 +143,7 @@ TEST(Surface, WhatIsSeenASecondTimeBeyondTheAxisIsDropped) {
   EXPECT_EQ(surface->mesh.faces.size(), 2 * 90 * 59);
 }
 
-// The profiles have points in different rows.
+// Each profile has points in other rows than its neighbours.
 TEST(Surface, OfUnequalProfilesIsClosedWithoutOverlap) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -176,7 +176,7 @@ TEST(Surface, OfAnySamplingHasNoHoles) {
           mesh_of(profiles, {.sampling = {.method = method, .window = length, .noise = .02}});
       const Topology topology = topology_of(mesh);
       EXPECT_EQ(topology.most, 2);
-      // The boundary consists at most of both rims and of the uneven ends of the profiles.
+      // At most the two rims and the uneven ends of the profiles are open boundaries.
       EXPECT_LE(topology.boundary, 2 * 90 + 2 * 90 * 2);
       EXPECT_GT(signed_volume(mesh), 0);
     }
@@ -197,9 +197,9 @@ TEST(Surface, AtADepthDiscontinuityAGapStays) {
   }
 }
 
-// The depth changes by 1.7 mm between two rows, more than 4 s_max = 1.68 mm, so [WLL] eq. 5 does
-// not join them. The angle between view and normal is 74 degrees, below the default `largest_angle`
-// of 75, so eq. 6 does.
+// The depth changes by 1.7 mm between two rows. By [WLL] eq. 5, the rows are not joined, because
+// this exceeds 4 s_max = 1.68 mm. By eq. 6 they are joined: the angle between view and normal is 74
+// degrees, below the default `largest_angle` of 75.
 TEST(Surface, AGrazingStepIsNoDiscontinuity) {
   const auto step = [](double, double z) { return z > 4.75 ? 20 : 21.7; };
   const auto profiles = scan_of(step, {.profiles = 360, .rows = 20, .top = 9.5});
@@ -209,17 +209,16 @@ TEST(Surface, AGrazingStepIsNoDiscontinuity) {
   EXPECT_EQ(mesh_of(profiles, flat).faces.size(), 2 * 360 * 18);
 }
 
-// Along the whole slope, the depth changes by 1.8 mm from one row to the next, which is 0.25 mm
-// away. The slope is therefore 82 degrees.
+// Along the whole slope, the depth changes by 1.8 mm between adjacent rows, which are 0.25 mm
+// apart. The slope is therefore 82 degrees.
 TEST(Surface, ASlopeThatIsGrazedAllAlongIsWhole) {
   const auto cone = [](double, double z) { return 45 - 7.2 * z; };
   const auto profiles = scan_of(cone, {.profiles = 360, .rows = 20, .top = 4.75});
   EXPECT_EQ(mesh_of(profiles, {.largest_spacing = .42}).faces.size(), 2 * 360 * 19);
 }
 
-// Like the slope of the previous test, but tilted: the slope's height changes by up to .35 mm from
-// one profile to the next. The depth therefore changes by up to 2.5 mm between profiles and by 1.8
-// mm between rows.
+// A tilted slope: its height changes by up to .35 mm from one profile to the next. The depth
+// therefore changes by up to 2.5 mm between profiles and by 1.8 mm between rows.
 TEST(Surface, ASlopeThatRunsAcrossTheRowsIsWholeToo) {
   const auto cone = [](double angle, double z) -> std::optional<double> {
     const double rho = 45 - 7.2 * (z - 20 - 20 * std::sin(angle));
@@ -251,7 +250,7 @@ TEST(Surface, SpecksAndOutliersVanish) {
     EXPECT_LT(std::hypot(p.x, p.y), 21);
 }
 
-// A thin wall, like the brim of a hat, that appears in two rows of all profiles.
+// A thin wall, like the brim of a hat, appears in two rows of all profiles.
 TEST(Surface, AThinWallSeenOnFewRowsStays) {
   auto profiles = scan_of(cylinder(20));
   for (Profile& profile : profiles) {
@@ -328,7 +327,7 @@ TEST(Surface, OfTwoInSomeRowsIsBothThere) {
   EXPECT_EQ(topology_of(mesh).boundary, 2 * 90 + 4 * 19);
 }
 
-// The two surfaces are closer together than the limit for joining points, but must stay separate.
+// The two surfaces are closer than the limit for joining points, but must stay separate.
 TEST(Surface, OfTwoThatAreCloseJoinsNoneToTheOther) {
   const TriangleMesh mesh = mesh_of(both(scan_of(cylinder(20)), scan_of(cylinder(18))));
   EXPECT_EQ(mesh.faces.size(), 2 * (2 * 90 * 59));
@@ -369,8 +368,8 @@ TEST(Surface, NoiseIsSmoothedWithinWhatTheSensorHas) {
   EXPECT_LT(rms_rho(mesh_of(profiles, {.noise = .03}), error), .5 * raw);
 }
 
-// The points of a row are in random order, so the order of a profile's two strands (strands.h)
-// varies from profile to profile.
+// A profile has two strands (lines of points along a surface, steps.h). The points of each row
+// are in random order, so the order of the strands differs from profile to profile.
 TEST(Surface, TwoInEachRowAreSmoothedAsOne) {
   const auto error = [](const Vec3& p) {
     const double rho = std::hypot(p.x, p.y);
@@ -424,8 +423,8 @@ TEST(Surface, TooLittleIsRefusedWithAReason) {
   EXPECT_THAT(nothing.error().message, HasSubstr("of 0 points"));
 }
 
-// For random profiles, no edge has three faces, the orientation is consistent, and the import
-// accepts the mesh.
+// Random profiles must give a mesh with a consistent orientation and at most two faces per edge.
+// The import must accept it.
 TEST(Surface, OfRandomProfilesIsEdgeManifold) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -459,8 +458,8 @@ TEST(Surface, OfRandomProfilesIsEdgeManifold) {
 }
 
 // Two wavy sheets intersect. Each sheet lacks some rows, which are chosen at random for each
-// profile. The strands of a profile (strands.h) therefore have gaps and change from one sheet to
-// the other.
+// profile. The strands of a profile (lines of points along a surface) therefore have gaps and
+// change from one sheet to the other.
 TEST(Surface, OfTwoRaggedSheetsIsEdgeManifold) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -54,7 +54,7 @@ void collapse(Mesh& mesh, double share, const Cost& cost, const Placement& place
 }
 
 // Simplifies with `run`, whose arguments are a mesh and the share of its edges to keep. On a closed
-// mesh, that is also the share of its faces.
+// mesh, this share equals the share of faces that remain.
 template <class Run>
 Simplified simplify(const TriangleMesh& source, std::size_t faces, const Run& run) {
   Simplified out;

@@ -9,13 +9,13 @@
 
 namespace vitrine::bench {
 
-// Returns six cameras, one for each direction of an axis. Each camera is in front of the outermost
-// vertex on its side. The camera is so close that `share` times the model's diagonal fills the
-// height of a viewport of 800 x 600 pixels.
+// Returns six cameras: one for each direction of each axis. Each camera is in front of the
+// outermost vertex on its side. The camera is so close that `share` times the model's diagonal
+// fills the height of a viewport of 800 x 600 pixels.
 std::vector<View> close_ups(const TriangleMesh& mesh, double share);
 
-// Returns the bytes, header included, that the planner needs until no visible error exceeds one
-// pixel.
+// Returns the number of bytes, including the header, that are needed until no visible error exceeds
+// one pixel.
 std::uint64_t bytes_for(const Manifest& manifest, const View& view);
 
 }  // namespace vitrine::bench

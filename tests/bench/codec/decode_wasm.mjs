@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the seconds that the warmed-up browser decoder takes for a whole file, and the bytes of
-// memory that the decoder holds after returning the surface:
+// Measures the warmed-up browser decoder on a whole file. Prints the seconds of decoding, and the
+// bytes of memory that the decoder holds after returning the surface:
 // node decode_wasm.mjs DECODER.wasm FILE.pmesh
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -33,8 +33,7 @@ async function decode() {
   return decoder;
 }
 
-// The measured time is the processor time of the last run, because the engine has then compiled the
-// hot code.
+// Only the last run counts, because the JavaScript engine has compiled the hot code by then.
 let seconds;
 for (let run = 0; run < 3; ++run) {
   const start = process.cpuUsage();

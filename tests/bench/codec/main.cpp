@@ -13,7 +13,7 @@
 namespace vitrine::bench {
 namespace {
 
-// Maximum faces of the model that the speed sections use.
+// Maximum number of faces of the model that the speed sections use.
 constexpr std::size_t kSpeedFaces = 300'000;
 constexpr std::size_t kQuickFaces = 50'000;
 
@@ -27,7 +27,7 @@ int run(int argc, char** argv) {
     } else {
       const bool help = std::strcmp(argv[i], "--help") == 0;
       std::fputs(
-          "usage: bench-codec [--quick] [--json]   meshes: the folder VITRINE_MODELS\n"
+          "Usage: bench-codec [--quick] [--json]   meshes: the folder VITRINE_MODELS\n"
           "--quick: only meshes of at most 50,000 triangles\n",
           help ? stdout : stderr);
       return help ? 0 : 2;

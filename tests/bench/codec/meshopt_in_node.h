@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the npm package of meshoptimizer. This version can respect attributes and move vertices to
-// better positions; Debian's version of the library cannot.
+// Runs meshoptimizer's npm package. Unlike Debian's version of the library, the package can respect
+// attributes and move vertices to better positions.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ struct SimplifiedArrays {
   double seconds = 0;  // processor time of the simplification alone
 };
 
-// Simplifies a mesh to about `faces` triangles, and moves vertices. Returns one mesh for each
-// number of faces. Keeps the seams of attributes, unless the mesh would then have too many faces.
+// For each number in `faces`, simplifies a mesh to about that many triangles and moves vertices to
+// better positions. Keeps the seams of attributes, unless the mesh would then have too many faces.
 // Needs Node.
 std::vector<SimplifiedArrays> simplify_in_node(const MeshoptInput& mesh,
                                                const std::vector<std::size_t>& faces);

@@ -17,8 +17,8 @@ struct Simplified {
 // Simplifies with meshoptimizer's edge collapses. Vertices keep their positions.
 Simplified simplify_by_meshopt(const TriangleMesh& mesh, std::size_t faces);
 
-// Simplifies with meshoptimizer and moves vertices to better positions, which only its npm package
-// supports. Returns one mesh for each number of faces.
+// For each number in `faces`, simplifies with meshoptimizer and moves vertices to better positions,
+// which only its npm package supports.
 std::vector<Simplified> simplify_by_meshopt_update(const TriangleMesh& mesh,
                                                    const std::vector<std::size_t>& faces);
 

@@ -22,8 +22,8 @@ std::uint32_t draco_decode(std::span<const std::uint8_t> bytes);
 // Returns the mesh of a Draco file, without colours.
 TriangleMesh draco_mesh(std::span<const std::uint8_t> bytes);
 
-// A mesh as flat arrays in meshoptimizer's layout. Preparing it beforehand keeps the conversion out
-// of the measured time.
+// A mesh as flat arrays in meshoptimizer's layout. It is prepared before the measurement, so the
+// measured time excludes the conversion.
 struct MeshoptInput {
   std::vector<float> positions;
   std::vector<float> attributes;  // `attribute_count` values per vertex

@@ -10,7 +10,7 @@
 namespace vitrine::bench {
 namespace {
 
-// Largest accepted ratio of a level's bytes to those of a single file with equal error. The limit
+// Maximum ratio of a level's bytes to the bytes of a single file with equal error. The limit
 // applies to the geometric mean over a model's levels.
 constexpr double kMaxRate = 1.5;
 constexpr std::size_t kFewestFaces = 50'000;

@@ -12,7 +12,7 @@ namespace {
 
 // Maximum size of a file, as a multiple of the size of the same file with one region.
 constexpr double kMaxRegions = 1.03;
-// Maximum bytes that a close-up needs, as a share of a large scan's file.
+// Largest allowed download for a close-up, as a share of a large scan's file.
 constexpr double kMaxCloseUp = 1.0 / 3;
 
 struct CloseUp {
@@ -20,9 +20,9 @@ struct CloseUp {
   double share;  // share of the diagonal that fills the height of the viewport
   double limit;
 };
-// The closest views that are judged. In closer views, a pixel would hardly be larger than the
-// rounding of the lattice, so all visible regions would need full resolution. Even here, a scan
-// needs full resolution if only its last level has an error of at most one pixel.
+// The closest views that are measured. In closer views, a pixel would hardly be larger than the
+// rounding of the lattice, so all visible regions would need full resolution. Even in these views,
+// a scan needs full resolution if only its last level has an error of at most one pixel.
 constexpr CloseUp kCloseUps[] = {{"close_up_quarter", 0.25, kMaxCloseUp},
                                  {"close_up_eighth", 0.125, kNoThreshold}};
 

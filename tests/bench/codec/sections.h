@@ -38,8 +38,8 @@ void regions(Report& report, const BenchmarkModel& model);
 // Compares our decode time with Draco's, and WebAssembly with native code.
 void speeds(Report& report, const BenchmarkModel& model);
 
-// Compares build times with meshoptimizer's, and two threads with one. Measures how time and memory
-// grow up to the largest model.
+// Compares our build time with meshoptimizer's, and the build time on two threads with that on one.
+// Measures how time and memory grow up to the largest model.
 void builds(Report& report, const BenchmarkModel& model, const BenchmarkModel& largest);
 
 }  // namespace vitrine::bench

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kShare = 10;  // the simplifiers keep one of every kShare faces
 
-// Returns the result of the last of three runs, because the engine has then compiled the hot code.
+// Returns the result of the last of three runs, because Node has compiled the hot code by then.
 Simplified meshopt_update(const TriangleMesh& mesh, std::size_t faces) {
   return std::move(simplify_by_meshopt_update(mesh, {faces, faces, faces}).back());
 }

@@ -4,8 +4,8 @@
 // node simplify.mjs MESH FACES...
 // MESH holds the numbers of vertices, indices and attributes per vertex (u32 each), positions (f32),
 // attributes (f32) and indices (u32). For each number of faces, writes to the standard output the
-// processor time in seconds (f32) and a mesh in the format of MESH. Attributes keep their seams as
-// far as these permit the number of faces.
+// processor time in seconds (f32) and a mesh in the format of MESH. Keeps the seams of attributes,
+// unless they prevent the requested number of faces.
 import { readFileSync, writeSync } from "node:fs";
 import { MeshoptSimplifier } from "meshoptimizer";
 

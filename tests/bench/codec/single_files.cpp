@@ -19,8 +19,8 @@ constexpr int kFewestBits = 8, kMostBits = 12;
 constexpr std::size_t kSamples = 50'000;
 constexpr std::size_t kFewestPoints = 12;  // a curve with fewer points is rejected
 
-// Returns the numbers of faces to simplify to, from kFewest to kMost of the original's. They are
-// evenly spaced on a logarithmic scale.
+// Returns the numbers of faces to simplify to, evenly spaced on a logarithmic scale. They range
+// from kFewest to kMost, as shares of the original's faces.
 std::vector<std::size_t> targets(const TriangleMesh& original) {
   std::vector<std::size_t> out;
   for (int i = 0; i < kTargets; ++i) {

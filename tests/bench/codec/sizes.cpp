@@ -13,8 +13,8 @@ namespace {
 constexpr double kMaxSize = 1.27, kMaxMeanSize = 1.03;
 // Minimum number of models for which a mean is meaningful.
 constexpr std::size_t kMeanModels = 5;
-// Maximum bytes of the head (header and base mesh), which the first request fetches, per million
-// triangles. The number of millions is rounded up.
+// Maximum bytes of a file's head (header and base mesh) per million triangles. The first request
+// fetches the head. The number of millions is rounded up.
 constexpr double kMaxHead = 32 * 1024;
 
 void first_request(Report& report, const BenchmarkModel& model, const Bytes& pmesh) {

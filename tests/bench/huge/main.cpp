@@ -14,6 +14,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,8 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kTriangles = 20'000'000;
 constexpr double kMostBytes = 2.0 * (1u << 30);
 constexpr const char* kUsage =
-    "usage: bench-huge [--json] [--triangles N] [--mesh OUT.ply]\n"
+    "Usage: bench-huge [--json] [--triangles N] [--mesh OUT.ply]\n"
+    "--triangles: at least that many (default 20,000,000)\n"
     "--mesh: only write the mesh\n";
 
 struct HugeOptions {
@@ -93,8 +95,8 @@ void run_vitrine(const std::string& arguments) {
   if (std::system(command.c_str()) != 0) throw std::runtime_error("this failed: " + command);
 }
 
-// Returns the peak memory, in bytes, of the largest child process that has ended. That is vitrine,
-// or the child of vitrine that reads and builds.
+// Returns the peak memory, in bytes, of the ended child process that used the most. This process is
+// vitrine, or the child process in which vitrine reads and builds.
 double peak_bytes() {
   rusage children{};
   ::getrusage(RUSAGE_CHILDREN, &children);
@@ -114,7 +116,7 @@ int run(const HugeOptions& options) {
   run_vitrine("build '" + mesh + "' --force -o '" + pmesh + "'");
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const double bytes = peak_bytes();  // measured before the verification, which may need more
+  const double bytes = peak_bytes();  // peak memory before the verification, which may use more
   run_vitrine("verify '" + pmesh + "' --against '" + mesh + "'");
   Report report(options.json);
   report.add({"huge", "peak_bytes_to_2_GiB", bytes, kMostBytes, bytes / kMostBytes, 1});
@@ -128,6 +130,7 @@ int run(const HugeOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace vitrine::bench;
+  if (argc == 2 && std::string_view(argv[1]) == "--help") return std::fputs(kUsage, stdout), 0;
   HugeOptions options;
   if (!parse(argc, argv, options)) return std::fputs(kUsage, stderr), 2;
   try {

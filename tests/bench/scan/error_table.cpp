@@ -23,7 +23,7 @@ class Table {
                                      rig::optics_of(rig::Realism{}.seed));
   }
 
-  // over_speckle() and over_exposure() use half the steps. These are enough to show the
+  // over_speckle() and over_exposure() use half the steps, which are enough to show the
   // differences.
   void over_speckle() {
     for (const double speckle : {0.33, 0.5, 0.7, 1.0}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench-scan: measures accuracy, sampling, simplification and speed of scans at the simulated rig.
-// The exit code is 0 only if every figure is within its limit.
+// The exit code is 0 only if every measured value is within its limit.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kUsage =
-    "usage: bench-scan [--quick] [--json] [--pictures DIR] [--only SECTION]...\n"
+    "Usage: bench-scan [--quick] [--json] [--pictures DIR] [--only SECTION]...\n"
     "meshes: the folder VITRINE_MODELS; sections: ground_truth, error_table, sampling,\n"
     "simplification, speed\n"
-    "--quick: few steps and one object a section; accuracy is not judged\n";
+    "--quick: few steps and one object per section; accuracy is not judged\n";
 
 struct CommandLine {
   bool json = false, help = false;

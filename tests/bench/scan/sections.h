@@ -24,10 +24,10 @@ struct Object {
 // Returns the heads, busts and similar objects in the folder VITRINE_MODELS. Without that variable,
 // returns the two in tests/models.
 std::vector<Object> objects();
-// Returns the object with that name, or the first object if there is none.
+// Returns the object named `name`, or the first object if no object has that name.
 const Object& object_of(const std::vector<Object>& all, const std::string& name);
 
-// Reports a figure that is compared with a fixed limit, not with another program.
+// Reports a measured value that is compared with a fixed limit, not with another program.
 inline void judge(Report& report, const std::string& what, const std::string& key, double value,
                   double limit = kNoThreshold) {
   report.add({what, key, 0, 0, value, limit});
@@ -37,15 +37,15 @@ inline void judge(Report& report, const std::string& what, const std::string& ke
 // with the object on the table.
 void ground_truth(Report& report, const Options& options, const std::vector<Object>& objects);
 
-// Reports the accuracy for one object at different speckle, exposure, steps and degrees of the
-// polynomial.
+// Reports the accuracy for one object at different speckle, exposure, numbers of steps, and degrees
+// of the calibration's polynomial.
 void error_table(Report& report, const Options& options, const Object& object);
 
-// Repeats [WLL] table 1, and compares the accuracy of sampling methods at equal numbers of
-// vertices.
+// Repeats the experiment of [WLL] table 1. Also compares the accuracy of sampling methods at equal
+// numbers of vertices.
 void sampling(Report& report, const Options& options, const Object& object);
 
-// Repeats [WLL] table 2 with a scanned mesh.
+// Repeats the experiment of [WLL] table 2 with a scanned mesh.
 void simplification(Report& report, const Options& options, const Object& skull,
                     const Object& head);
 
@@ -61,7 +61,7 @@ void emergency_stop(Report& report, const Object& object);
 int run_emergency_stops(const std::filesystem::path& folder);
 
 // Measures the baseline of speed(): turns the table and takes as many pictures as a scan of `steps`
-// steps, without processing them. Prints the seconds.
+// steps, without processing them. Prints the time in seconds.
 int run_bare_camera(const std::filesystem::path& config, int steps);
 
 }  // namespace vitrine::bench

@@ -30,8 +30,9 @@ using Polygons = std::array<std::uint64_t, 4>;
 constexpr Polygons kPortrait = {57'168, 31'951, 22'729, 15'964};
 constexpr Polygons kSkull = {100'182, 55'796, 39'934, 28'526};
 
-// Sizes from [WLL] table 2, as multiples of the VRML file of the finest level: the layer from b to
-// a, the base with all layers, and all levels as separate files.
+// Sizes from [WLL] table 2, divided by the size of the finest level's VRML file. They are the sizes
+// of the layer that refines b to a, of the base with all layers, and of separate files for all
+// levels.
 constexpr double kPaperLayer = 0.81, kPaperLayered = 1.26, kPaperFiles = 1.96;
 
 struct State {
@@ -78,8 +79,8 @@ TriangleMesh scanned(const Object& object, int steps) {
   return value_of(mesh_of(profiles, calibration, {})).mesh;
 }
 
-// Builds a model of the finest level of [WLL] table 2. Compares the bytes of base and layers with
-// those of that level alone.
+// Builds a model of the finest level of [WLL] table 2. Compares the bytes of its base and layers
+// with the bytes of a file that holds only the finest level.
 void layers_over_finest(Report& report, const std::string& what, const Polygons& polygons,
                         const State& finest) {
   const auto file = value_of(write_mesh(finest.mesh, MeshFormat::kPly, {.unit = "mm"}));

@@ -22,7 +22,7 @@ struct StripeAt {
   std::vector<StripePoint> points;
 };
 
-// Makes one profile of calibrated points for each angle, but uses only every `every`-th angle.
+// Makes one profile of calibrated points for every `every`-th angle.
 std::vector<Profile> profiles_of(const std::vector<StripeAt>& stripes,
                                  const Calibration& calibration, int every = 1);
 

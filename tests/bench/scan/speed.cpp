@@ -20,7 +20,7 @@ namespace {
 
 // limits: milliseconds per stripe, and seconds per surface
 constexpr double kExtraction = 3, kSurface = 5;
-constexpr double kStripeNoise = 0.03;  // standard deviation in mm
+constexpr double kStripeNoise = 0.03;  // standard deviation of the noise, in mm
 // Largest accepted time of a scan, as a multiple of the time that the camera alone takes. A scan
 // processes one pair of pictures while the camera takes the next pair, and makes the mesh at the
 // end.

@@ -71,7 +71,7 @@ class Adaptation {
       dropped = StreamPeer::now();
     }
     double noticed = kNever;
-    // The default is a forecast that never came true. The figure therefore fails if the server
+    // The default is a forecast that never came true. The measurement therefore fails if the server
     // sends no forecast.
     ReceivedForecast worst{.promise = {}, .at = 0};
     bool any = false;
@@ -129,11 +129,11 @@ class Adaptation {
     return scan_ + "." + what + "_" + std::to_string(static_cast<int>(rate / 1000));
   }
 
-  // The server must mark the first forecast as not measured. The forecast must not be too
-  // optimistic.
+  // Checks that the server marks its first forecast as not measured, and that this forecast is not
+  // too optimistic.
   void first_guess(const DetailProgress& course, double rate) {
     ReceivedForecast first{.promise = {}, .at = 0};
-    if (!course.forecasts().empty() && !course.forecasts()[0].promise.measured)
+    if (!course.forecasts().empty() && !course.forecasts()[0].promise.is_measured)
       first = course.forecasts()[0];
     figures_.add({name("seconds", rate), "first_guess_kept", first.kept - first.at,
                   first.promise.seconds, first.ratio(), 1});

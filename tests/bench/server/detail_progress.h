@@ -18,14 +18,14 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 struct ReceivedForecast {
   PromiseMessage promise;
   double at;             // time in seconds at which the forecast arrived
-  double kept = kNever;  // time in seconds at which all forecast data had arrived
+  double kept = kNever;  // time in seconds at which all data of the forecast had arrived
 
   double ratio() const { return (kept - at) / promise.seconds; }
 };
 
 class DetailProgress {
  public:
-  // Assumes that the client has already received the head, which is the header and the base mesh.
+  // Assumes that the client has already received the model's head: the header and the base mesh.
   explicit DetailProgress(const Manifest& manifest);
 
   void take(const StreamPeer::Event& event);

@@ -52,7 +52,7 @@ class ColdVisitor {
     test::HttpClient client(daemon_->port(), ShapedLink::kServer);
     client.send("GET /api/v1/models/" + shown.id + "/head HTTP/1.1\r\nHost: localhost\r\n\r\n");
     if (client.is_closed())
-      throw std::runtime_error("no answer");  // is_closed() waits for the first bytes
+      throw std::runtime_error("no answer");  // is_closed() waits for the response
     times.first = StreamPeer::now();
     const std::string head = client.receive().body;
     times.end = StreamPeer::now();
@@ -70,7 +70,8 @@ class ColdVisitor {
     report("first_triangle_websocket", shown.scan, times, peer.head);
   }
 
-  // The connection and the request take two round trips. A second request would take a third.
+  // The connection and the request take two round trips. A second request would take a third round
+  // trip.
   void report(const char* way, const Scan& scan, const Times& times,
               const std::vector<std::uint8_t>& head) {
     check(head);

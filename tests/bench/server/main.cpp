@@ -25,7 +25,7 @@ constexpr Section kSections[] = {
 };
 
 int usage(int code) {
-  std::string text = "usage: bench-server [--quick] [--json] [SECTION]...\nsections:";
+  std::string text = "Usage: bench-server [--quick] [--json] [SECTION]...\nsections:";
   for (const Section& section : kSections)
     text.append(" ").append(section.name);
   std::fprintf(code == 0 ? stdout : stderr, "%s\n", text.c_str());

@@ -14,7 +14,8 @@ inline double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// Collects figures of repeated runs. Reports, for each figure, the run with the median ratio.
+// Collects the measured values of repeated runs. For each value, reports the run with the median
+// ratio.
 class Medians {
  public:
   void add(Figure figure) {

@@ -68,9 +68,8 @@ class Scale {
     return {*std::ranges::min_element(bytes), median(bytes)};
   }
 
-  // Connects `count` viewers that request everything, acknowledge it and read nothing. Returns the
-  // bytes of resident memory that the daemon needs for each, in addition to those for an idle
-  // viewer.
+  // Connects `count` viewers that request everything, acknowledge it and read nothing. Returns how
+  // many more bytes of resident memory the daemon needs for each of them than for an idle viewer.
   double never_reading(std::size_t count) {
     connect(count);
     const double before = resident();
@@ -88,7 +87,7 @@ class Scale {
   }
 
  private:
-  // Connects in rounds. Otherwise the kernel's queue of new connections would overflow.
+  // Connects in rounds, so that the kernel's queue of new connections does not overflow.
   void connect(std::size_t count) {
     constexpr std::size_t kRound = 100;
     while (count > 0) {

@@ -18,7 +18,7 @@ struct Scan {
 // file.
 const Scan& scan(const std::string& name);
 
-// The model used for the adaptation figures.
+// A large model, used only in full runs (Effort::is_quick is false).
 inline constexpr const char* kLargeScan = "ct-skull-2753k";
 
 }  // namespace vitrine::bench

@@ -26,8 +26,8 @@ using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// Puts a museum's load of a whole day on a daemon in ten minutes. Visitors of each kind come, send
-// their requests and leave, repeatedly.
+// Puts a museum's load of a whole day on a daemon within ten minutes. Visitors of each kind
+// repeatedly come, send their requests and leave.
 class Soak {
  public:
   Soak()
@@ -139,7 +139,7 @@ class Soak {
       const std::string model = "/api/v1/models/" + model_of(accepted.field("location"));
       expect(send("GET", model + "/export.ply"), 200);
       expect(send("DELETE", model), 204);
-      daemon_.wait_for_line("method=DELETE");  // otherwise the log would fill the pipe
+      daemon_.wait_for_line("method=DELETE");  // reads the log, so that the pipe does not fill
     }
   }
   std::string model_of(const std::string& job) {
@@ -171,7 +171,7 @@ class Soak {
     }
   }
 
-  // The server answers ten wrong tokens per minute and throttles the others.
+  // The server answers ten requests with wrong tokens per minute and throttles further ones.
   void guess_a_token() {
     test::HttpClient client(daemon_.port());
     client.send("GET /api/v1/jobs HTTP/1.1\r\nHost: a\r\nAuthorization: Bearer vtr_guess\r\n\r\n");

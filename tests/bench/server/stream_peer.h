@@ -17,8 +17,8 @@ namespace vitrine::bench {
 
 class StreamPeer {
  public:
-  // Connects to the stream of a model. The server sends the head first if the query string `query`
-  // requests it.
+  // Connects to the stream of a model. The server sends the model's head first if the query string
+  // `query` requests it.
   StreamPeer(std::uint16_t port, const std::string& model, const char* address,
              const std::string& query = "")
       : client_(port, "/api/v1/models/" + model + "/stream" + query, "pmesh.v1", "", address) {}

@@ -89,7 +89,7 @@ struct Peer {
   pid_t process;
 };
 
-// The figures of one of the two servers in one run.
+// The measured values of one of the two servers in one run.
 struct Run {
   Delivery delivery;
   double processor = 0;  // processor seconds per response
@@ -104,7 +104,8 @@ Run measure(const Peer& peer, Load load) {
   return run;
 }
 
-// Runs both servers alternately. Each figure is the median of the ratios of all pairs of runs.
+// Runs both servers alternately. Each result is the median, over all pairs of runs, of the ratio
+// of the two servers' values.
 class Comparison {
  public:
   Comparison(const Peer& ours, const Peer& nginx, const Effort& effort)

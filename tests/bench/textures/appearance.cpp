@@ -12,11 +12,13 @@
 namespace vitrine::bench {
 namespace {
 
-// Structural similarities to the source for which numbers of bytes are compared.
+// Structural similarities to the source. For each one, the benchmark compares the bytes that are
+// needed to reach it.
 constexpr std::array<double, 3> kTargets = {0.90, 0.95, 0.98};
 // Largest accepted ratio of our bytes to those of the best separate file.
 constexpr double kMaxSingle = 1.15;
-// Largest accepted ratio of our bytes to those of a client that fetches each rung.
+// Largest accepted ratio of our bytes to those of a client that fetches every rung of the ladder
+// (discrete_ladder.h).
 constexpr double kMaxClient = 0.7;
 constexpr double kLeastFinest = 0.99;  // least structural similarity of the finest state
 

@@ -15,7 +15,7 @@
 namespace vitrine::bench {
 namespace {
 
-// Numbers of faces of the rungs, as shares of all faces.
+// Numbers of faces of the ladder's rungs, as shares of all faces.
 constexpr std::array<double, 7> kRungs = {0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1};
 
 std::vector<MeshoptInput> simplified(const MeshoptInput& mesh) {
@@ -75,7 +75,8 @@ DiscreteLadder::DiscreteLadder(const TexturedModel& model, int bits)
   }
 }
 
-// Even sets have only the base colours. Odd sets also have the normal maps.
+// A set with an even number holds only the base colours. A set with an odd number also holds the
+// normal maps.
 std::vector<Picture> DiscreteLadder::pictures_of(std::size_t set) const {
   std::vector<Picture> pictures(sizes_.size());
   const auto add = [&](const std::vector<std::uint32_t>& numbers) {

@@ -12,9 +12,9 @@
 
 namespace vitrine::bench {
 
-// The geometry of a state is a rung, from 1 % of the faces to all faces. Its pictures are either
-// the base colours, or the base colours and the normal maps, all with the same side. Pictures that
-// the renderer does not show are left out.
+// The geometry of a state is one rung of the ladder: a file with 1 % of the faces, up to a file
+// with all faces. Its pictures are either the base colours, or the base colours and the normal
+// maps, all with the same side. Pictures that the renderer does not show are left out.
 class DiscreteLadder {
  public:
   // `bits` is the number of bits per coordinate of the finest rung. Coarser rungs have fewer bits.
@@ -24,8 +24,8 @@ class DiscreteLadder {
 
   // Returns the bytes of each state if the state is fetched alone, as a single file.
   StateBytes single_files() const;
-  // Returns the bytes for a client that fetches, one after the other, every rung up to the rung of
-  // the state, and every size of the state's pictures.
+  // Returns the bytes of each state for a client that first fetches all coarser rungs, and all
+  // smaller sizes of the state's pictures.
   StateBytes one_after_the_other() const;
 
  private:
@@ -37,7 +37,7 @@ class DiscreteLadder {
   std::vector<FacedMesh> rungs_;
   std::vector<double> rung_bytes_;
   std::vector<std::uint32_t> colours_, normals_;  // indices of the pictures
-  std::vector<Sizes> sizes_;                      // per picture; empty if it is not shown
+  std::vector<Sizes> sizes_;                      // sizes of each picture; empty if not shown
   std::size_t steps_ = 0;                         // number of sizes
 };
 

@@ -27,7 +27,7 @@ int run(int argc, char** argv) {
     } else {
       const bool help = std::strcmp(argv[i], "--help") == 0;
       std::fputs(
-          "usage: bench-textures [--quick] [--json] [PATH]\n"
+          "Usage: bench-textures [--quick] [--json] [PATH]\n"
           "PATH: a textured model or a folder of them (default: the folder VITRINE_MODELS)\n"
           "--quick: only the sizes of files, without pictures of the models\n",
           help ? stdout : stderr);

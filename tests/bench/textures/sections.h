@@ -14,8 +14,8 @@ namespace vitrine::bench {
 // with Draco files that have unmasked pictures.
 void sizes(Report& report, const std::vector<TexturedModel>& models);
 
-// Compares two numbers of bytes: those after which the model looks like the source, and those that
-// a ladder of separate files (discrete_ladder.h) needs for the same similarity.
+// Compares the bytes after which the streamed model looks like the source with the bytes that a
+// ladder of separate files (discrete_ladder.h) needs for the same similarity.
 void appearance(Report& report, const TexturedModel& model);
 
 }  // namespace vitrine::bench

@@ -9,7 +9,8 @@
 namespace vitrine::bench {
 namespace {
 
-// Largest accepted geometric mean of the ratios of our coordinates' bytes to those of Draco.
+// Maximum ratio of our texture coordinates' bytes to Draco's. The limit applies to the geometric
+// mean over all models.
 constexpr double kMaxCoordinates = 0.75;
 // Largest accepted ratio of the positions' bytes to those in the same model without texture.
 constexpr double kMaxPositions = 1.03;

@@ -14,8 +14,9 @@
 namespace vitrine::bench {
 namespace {
 
-// The rules of the viewer (web/src/three): the level after which it fetches pictures, and the
-// number of texels on a picture's side per pixel of the model's size on the screen.
+// Two rules of the viewer (web/src/three). kLevelBeforePictures is the level after which it fetches
+// pictures. kSharpness is the number of texels on the side of a picture per pixel of the model's
+// size on the screen.
 constexpr std::uint32_t kLevelBeforePictures = 2;
 constexpr double kSharpness = 1.5;
 

@@ -19,8 +19,8 @@ class StreamedModel {
 
   const Manifest& manifest() const { return manifest_; }
   double ssim(const AppearanceReference& reference, const ModelState& state) const;
-  // Bytes of the head, the chunks and the pictures outside the head. A picture replaces smaller
-  // ones, which need not be fetched.
+  // Bytes of the file's head, the chunks and the pictures outside the head. A picture replaces
+  // smaller pictures of its role, which need not be fetched.
   StateBytes bytes() const;
   // Returns the state with all chunks and the finest pictures.
   ModelState finest() const;

@@ -27,7 +27,7 @@ void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i * stride]);
 }
 
-// Returns the faces of a material, or null if there are none.
+// Returns a mesh of the faces of a material, or null if no face has the material.
 std::unique_ptr<draco::Mesh> part_of(const MeshoptInput& source, std::uint16_t material,
                                      bool has_coordinates) {
   std::vector<std::size_t> faces;

@@ -28,7 +28,7 @@ struct TexturedModel {
   // Builds the `.pmesh` of the same mesh without texturing, with kBits bits per coordinate, and
   // with vertex colours if `has_colours`.
   BuildResult build_untextured(bool has_colours) const;
-  // Renders the source, with its pictures as they are.
+  // Renders the source with its original pictures.
   AppearanceReference reference() const;
 };
 

@@ -58,8 +58,8 @@ async function encoded(positions, indices) {
 }
 
 /**
- * Loads the Draco encoder that three.js contains. It is a script, not a module. Returns it in an object, because a promise would
- * call its member `then`.
+ * Loads the Draco encoder that three.js contains. The encoder is a script, not a module. Returns the encoder inside an object,
+ * because a promise would call the encoder's method `then`.
  */
 async function encoderModule() {
   const createModule = new Function(`${await readFile(kEncoder)}; return DracoEncoderModule;`)();

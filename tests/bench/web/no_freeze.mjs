@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // no_freeze.mjs BIN_FOLDER MESH|FILE.pmesh: refines a model to its last triangle in Chromium,
 // slowed down to a quarter of its speed, and traces the page's main thread. Prints the CPU time for
-// processing the decoder's results. Fails if one task spends more than 12 ms on that. Also prints,
-// without a limit, the time of the browser's garbage collection and of drawing by three.js and the
-// software renderer.
+// processing the decoder's results. Fails if one task spends more than 12 ms on this processing.
+// Also prints, without a limit, the time of the browser's garbage collection and of drawing by
+// three.js and the software renderer.
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -18,7 +18,7 @@ const kCollection = /^(MajorGC|MinorGC|V8\.GCIncrementalMarking.*)$/;
 
 const [bin, mesh] = process.argv.slice(2);
 if (!mesh) {
-  console.error("usage: no_freeze.mjs BIN_FOLDER MESH|FILE.pmesh");
+  console.error("Usage: no_freeze.mjs BIN_FOLDER MESH|FILE.pmesh");
   process.exit(2);
 }
 
@@ -70,9 +70,9 @@ async function traced(tracing, work) {
 }
 
 /**
- * Returns the page's tasks on the main thread that process the decoder's results, with their CPU
- * times in ms: `ours` for the processing, `collection` for the garbage collection within it, and
- * `whole` for the whole task.
+ * Returns the page's tasks on the main thread that process the decoder's results. Each task has CPU
+ * times in ms: `ours` for the processing, `collection` for the garbage collection within the
+ * processing, and `whole` for the whole task.
  */
 function judge(events) {
   const isMark = ({ name }) => name.startsWith("progressive-mesh:");

@@ -10,8 +10,7 @@
 namespace vitrine::test {
 namespace {
 
-// A tube with a picture wrapped once around it. The tube is thin, so that rendering takes less
-// time.
+// A tube with a picture wrapped once around it. A thin tube takes less time to render.
 struct TexturedTube {
   TriangleMesh mesh = tube(64, 20);
   Texturing texturing;
@@ -41,8 +40,8 @@ struct TexturedTube {
   }
 
  private:
-  // Returns the texture coordinates of a face's corner. u is 1 instead of 0 where the last column
-  // of faces meets the first column.
+  // Returns the texture coordinates of a face's corner. At the seam between the last and the first
+  // column of faces, u is 1 instead of 0.
   static TextureCoordinates at(std::uint32_t vertex, const Triangle& face) {
     const bool wraps =
         vertex % 64 == 0 && std::ranges::any_of(face, [](std::uint32_t v) { return v % 64 == 63; });
@@ -88,7 +87,7 @@ TEST(Appearance, TheFurtherATextureIsShiftedTheLowerAreTheFigures) {
     psnr = *found->psnr;
     ssim = found->ssim;
   }
-  // If both models have the same bounds, swapping them does not change the result.
+  // Both models have the same bounds, so swapping them must not change the result.
   const auto exchanged = reference.compared_with(TexturedTube(0.05));
   ASSERT_TRUE(exchanged.has_value());
   EXPECT_EQ(exchanged->psnr, psnr);

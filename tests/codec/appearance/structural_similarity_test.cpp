@@ -10,8 +10,9 @@
 namespace vitrine::test {
 namespace {
 
-// Returns the SSIM of two pictures of 11 x 11 pixels from [WBSS04] eq. 12: luminance times contrast
-// times structure. Computes deviations from the mean, with two-dimensional weights.
+// Returns the SSIM of two pictures of 11 x 11 pixels by [WBSS04] eq. 12: luminance times contrast
+// times structure. Unlike the code under test, it computes deviations from the mean, with
+// two-dimensional weights.
 double similarity_by_parts(const Picture& a, const Picture& b) {
   double weights[121], sum = 0, ma = 0, mb = 0, va = 0, vb = 0, cov = 0;
   for (int i = 0; i < 121; ++i) {

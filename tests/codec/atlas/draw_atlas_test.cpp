@@ -29,7 +29,8 @@ Mesh random(std::uint64_t seed, std::uint32_t size = 120) {
   return mesh;
 }
 
-// A grid of u by v vertices that closes in one direction: a tube. `place(i, j)` is a position.
+// A tube: a grid of u by v vertices that is closed in the direction of u. `place(i, j)` returns the
+// position of a vertex.
 template <class Place>
 Mesh tube(std::uint32_t u, std::uint32_t v, const Place& place) {
   Mesh mesh;
@@ -100,7 +101,8 @@ std::vector<ChartTriangles> triangles_of(const Atlas& atlas) {
   return charts;
 }
 
-// The share of the square that at least one face covers, and the share that several faces cover.
+// The share of the texture square that at least one face covers, and the share that several faces
+// cover.
 struct Cover {
   double once = 0, twice = 0;
 };

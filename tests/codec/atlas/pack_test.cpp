@@ -13,7 +13,7 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-// Random numbers in [0, 1). They are the same with every implementation of the standard library.
+// Random numbers in [0, 1). They are the same with every standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -23,7 +23,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// Returns a fan of triangles with a ragged outline, like a chart of a scan.
+// Returns a fan of triangles with a ragged outline, like a texture chart of a scan.
 ChartTriangles blob(Random& random, double size) {
   constexpr int kCorners = 24;
   const double turn = 6.283185307179586 / kCorners;
@@ -135,7 +135,7 @@ TEST(Pack, AChartMayLieInTheHoleOfAnother) {
   const ChartTriangles core{{Point{50, 50}, {57, 50}, {57, 57}},
                             {Point{50, 50}, {57, 57}, {50, 57}}};
   const Packing packing = pack(std::vector{ring, core});
-  EXPECT_GT(packing.scale, 0.095);  // 0.1 is the scale of the ring without the core
+  EXPECT_GT(packing.scale, 0.095);  // the ring alone would have the scale 0.1
 }
 
 TEST(Pack, ManyMoreChartsThanGuttersAllowStillFindPlaces) {

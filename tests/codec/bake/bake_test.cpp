@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests which pictures a baked texture has.
+// Tests the sizes of the pictures in a baked texture.
 #include "codec/bake/bake.h"
 
 #include <gmock/gmock.h>
@@ -14,8 +14,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// Bakes `source` with each face in its place in the source's picture, reduced by `scale`. The
-// finest picture then has 1.14 / scale times the source's side, rounded up to a multiple of 64.
+// Bakes `source`. Each face keeps its place in the source's picture, reduced by `scale`. The finest
+// picture then has 1.14 / scale times the source's side, rounded up to a multiple of 64.
 BakedTexture baked(const ImportedMesh& source, double scale) {
   std::vector<DisplayFace> display;
   for (const auto& corners : source.texturing.coordinates[0]) {

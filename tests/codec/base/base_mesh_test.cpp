@@ -124,7 +124,7 @@ TEST(BaseMesh, NoPrefixOfOneIsRead) {
 TEST(BaseMesh, AnotherVariantOfEdgebreakerIsNotSupported) {
   const BaseMesh base = random_base(7);
   auto bytes = encode_base(base)->bytes;
-  bytes[11] = 2;  // states that symbols are coded by the valences of vertices
+  bytes[11] = 2;  // selects Draco's coding of symbols by the valences of vertices
   const auto decoded = decode_base(bytes, manifest_of(base));
   ASSERT_FALSE(decoded);
   EXPECT_EQ(decoded.error().code, ErrorCode::kUnsupported);

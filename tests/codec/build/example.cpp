@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// example MESH OUT.glb: builds a progressive model from a mesh file, and writes a level of detail
-// with at most 1,000 triangles.
+// Usage: example MESH OUT.glb. Builds a progressive model from a mesh file, and writes a level of
+// detail with at most 1,000 triangles.
 #include <codec/vitrine.h>
 
 #include <iostream>
@@ -12,7 +12,7 @@ T must(vitrine::Expected<T> result) {
 }
 
 int main(int count, char** arguments) try {
-  if (count != 3) throw std::runtime_error("usage: example MESH OUT.glb");
+  if (count != 3) throw std::runtime_error("Usage: example MESH OUT.glb");
   const auto bytes = must(vitrine::read_file(arguments[1], 1'000'000'000));
   const auto model = must(vitrine::build_model(bytes, {.bits = 12}));
   auto refiner = must(vitrine::open_model(model.file));

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the errors that a finished build states for its levels.
+// Checks the geometric errors that a finished build states for its levels: the maximum distances
+// from the original surface.
 #include "codec/build/level_errors.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "codec/build/build_model.h"
 #include "codec/build/open_model.h"
@@ -36,6 +39,26 @@ TEST(LevelErrors, NoLevelIsFartherOffThanItStatesNorMuchNearer) {
     EXPECT_LE(sampled->max, stated * (1 + 1e-9));
     EXPECT_GE(sampled->max, stated * 0.6);
   }
+}
+
+// Returns an OBJ file of one polygon: a strip with long teeth on both sides.
+std::vector<std::uint8_t> comb(int corners) {
+  std::string text, face = "f";
+  for (int i = 0; i < corners; ++i) {
+    const int half = corners / 2, x = i < half ? i : corners - 1 - i, tooth = x % 2 * 100;
+    text += fmt::format("v {} {} 0\n", x, i < half ? tooth : -5 - tooth);
+    face += fmt::format(" {}", i + 1);
+  }
+  text += face + "\n";
+  return {text.begin(), text.end()};
+}
+
+TEST(LevelErrors, OfACombWithManyTeethAreBounded) {
+  constexpr int kCorners = 2'000;
+  const auto built = build_model(comb(kCorners), {}, {});
+  ASSERT_TRUE(built);
+  for (const LevelInfo& level : built->report.manifest.levels)
+    EXPECT_LE(level.max_error, kCorners / 4);
 }
 
 std::vector<std::uint8_t> built_on(unsigned threads, Placement placement) {

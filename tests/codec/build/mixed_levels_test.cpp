@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the errors that a file states: for whole levels, between regions of different levels, and
-// for a camera's view. Compares many points of the displayed surface with the original, and many
-// points of the original with the displayed surface.
+// Checks the geometric errors that a file states: for whole levels, between regions of different
+// levels, and for a camera's view. Compares many points of the displayed surface with the original,
+// and many points of the original with the displayed surface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@ struct How {
   Placement placement;
 };
 
-// Returns a mesh file of the bust with small components around it. Levels insert each component as
-// a whole.
+// Returns a mesh file of the bust with small separate components around it. A level of the model
+// inserts such a component as a whole.
 std::vector<std::uint8_t> bust_with_specks() {
   TriangleMesh mesh = shipped_model("demosthenes.obj");
   const std::size_t vertices = mesh.positions.size();
@@ -64,7 +64,7 @@ class Bust {
 
   const Manifest& manifest() const { return built_.report.manifest; }
   const TriangleMesh& original() const { return original_; }
-  const TriangleBvh& bvh() const { return bvh_; }  // hierarchy of the original's triangles
+  const TriangleBvh& bvh() const { return bvh_; }  // search tree of the original's triangles
   std::uint32_t leaf(VertexId original) const { return leaf_[original]; }
 
   Refiner start() const { return std::move(*open_model(built_.file)); }
@@ -81,7 +81,7 @@ class Bust {
     find_leaves();
   }
 
-  // Finds the leaf of each original vertex. The model's vertices at full resolution are the
+  // Finds the leaf region of each original vertex. At full resolution, the model's vertices are the
   // original vertices, rounded to the lattice.
   void find_leaves() {
     Refiner whole = start();
@@ -109,8 +109,8 @@ struct CornerRegion {
 };
 using Places = std::array<CornerRegion, 3>;
 
-// Considers only those of the three regions that have the coarsest level. Returns the smallest
-// error that they state.
+// Finds the coarsest level of the three regions. Returns the smallest error that a region of this
+// level states.
 double least_stated(const Places& places) {
   const std::uint32_t coarsest = std::min({places[0].level, places[1].level, places[2].level});
   double least = std::numeric_limits<double>::infinity();
@@ -173,7 +173,7 @@ class DisplayedSurface {
       for_points(corners_of(mesh_, face), spacing_, [&](const Vec3& p) { f(p, places); });
     }
   }
-  // Like for_displayed(), for a grid of points on the original surface.
+  // Like for_displayed(), but for a grid of points on the original surface.
   template <typename F>
   void for_original(const F& f) const {
     for (const Triangle& face : bust_.original().faces) {
@@ -186,9 +186,9 @@ class DisplayedSurface {
 
   double to_original(const Vec3& p) const { return std::sqrt(bust_.bvh().closest(p).squared); }
   ClosestTriangle closest(const Vec3& p) const { return bvh_.closest(p); }
-  // Returns the largest stated error among the regions whose box, enlarged by this error, contains
-  // p. A camera that sees p also sees these boxes, so it requests a region whose error is too
-  // large.
+  // Enlarges the box of each region by the error that the region states. Returns the largest stated
+  // error among the boxes that contain p. A camera that sees p also sees these boxes, so it
+  // requests their regions if the error is too large.
   double most_around(const Vec3& p) const {
     double most = 0;
     for (const RegionErrorBox& region : regions_) {
@@ -224,7 +224,7 @@ class DisplayedSurface {
   double spacing_;
 };
 
-// Collects distances relative to their allowed maximum. Keeps the largest of these ratios.
+// Keeps the largest ratio of a distance to its allowed maximum.
 struct Largest {
   double share = 0;
   std::size_t mixed = 0;
@@ -294,7 +294,7 @@ TEST_P(MixedLevels, ShowNothingFartherOffThanTheRegionsAtHandState) {
   EXPECT_GT(back.mixed, 1'000u);
 }
 
-// A camera with a position and a direction.
+// A camera, given by its position and its axes.
 struct PinholeCamera {
   Vec3 eye, right, up, back;
   View view;
@@ -351,7 +351,8 @@ TEST_P(MixedLevels, ShowACameraNoErrorAboveWhatItAllows) {
     const DisplayedSurface shown(bust, refiner);
     Largest there, back;
     const auto look = [&](const Vec3& p, double distance, const Places& places, Largest& largest) {
-      // Near the eye, the error of full resolution alone may exceed the allowed number of pixels.
+      // Near the eye, even the error of full resolution may cover more than the allowed number of
+      // pixels.
       const double least = camera.pixels(p, m.levels.back().max_error);
       largest.add(camera.pixels(p, distance), std::max(camera.view.pixel_error, least),
                   is_mixed(places));

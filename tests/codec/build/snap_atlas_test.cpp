@@ -61,7 +61,8 @@ TEST(SnapAtlas, LargeFacesDoNotMakeTheStepLargerThanTheGutterAllows) {
   EXPECT_EQ(snap_coordinates(flat.faces, flat.at).step, 1024);
 }
 
-// Squeezes columns of a grid together, so that most of their faces are thinner than a step.
+// Squeezes some columns of a grid together, so that most of their faces are thinner than a step of
+// the lattice.
 TEST(SnapAtlas, NoFaceIsTurnedOverOrLosesItsArea) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -36,8 +36,8 @@ Expected<Verification> verify(const Bytes& file) {
   return verify_model(file, std::nullopt, [](auto, auto) {});
 }
 
-// Returns `file` with the header of `manifest` instead of its own. The lengths in `manifest` must
-// fit the body of the file.
+// Replaces the header of `file` by one written from `manifest`. The lengths in `manifest` must fit
+// the body of the file.
 Bytes with_manifest(Manifest manifest, const Bytes& file) {
   const std::uint64_t body = parse_header(file).value().base_offset;
   Bytes out = write_header(manifest);
@@ -159,8 +159,8 @@ TEST(TexturedModel, TheGlbOfALevelHasItsCoordinatesAndAPictureThatFits) {
 }
 
 // Returns a torus as GLB. Its two halves have different materials. One picture uses the first set
-// of texture coordinates, the other the second set, whose coordinates exceed 1. `move` is added to
-// the first coordinate.
+// of texture coordinates. The other picture uses the second set, whose coordinates exceed 1. `move`
+// is added to the first coordinate.
 Bytes source_glb(float move = 0) {
   ImportedMesh source = textured_torus(60, 30, 64);
   Texturing& t = source.texturing;

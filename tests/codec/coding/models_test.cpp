@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the entropy models alone. The decoder must return the encoded values, even if the model's
-// expectations are absurd.
+// Tests the entropy models alone. The decoder must return the encoded values, even if the model
+// predicts absurd values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -92,7 +92,7 @@ SplitSurroundings random_surroundings(Dice& dice) {
   const double bound = dice.one_in(2) ? 400'000 : 10;
   const Vec3 one = {random_double(dice, bound), random_double(dice, bound),
                     random_double(dice, bound)};
-  // Makes many features equal. The regression then has no unique solution.
+  // Makes many features equal, so that the model's regression has no unique solution.
   for (Vec3& f : s.features)
     f = dice.one_in(3) ? Vec3{random_double(dice, bound), 0, random_double(dice, bound)} : one;
   s.normal = dice.one_in(3) ? Vec3{} : Vec3{0, 0.6, 0.8};
@@ -128,7 +128,7 @@ TEST(DisplacementModel, AnyDisplacementComesBackInAnySurroundings) {
 }
 
 // Expects that the first update of each initial state does not overflow its 32-bit product. States
-// reached by coding bits never do, but a wrong initial state could.
+// reached by coding bits never overflow it, but a wrong initial state could.
 template <class Model>
 void expect_safe_starts(const Model& model) {
   for (const AdaptiveBit& start : model.bits()) {

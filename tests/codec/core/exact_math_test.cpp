@@ -10,8 +10,8 @@
 namespace vitrine {
 namespace {
 
-// Computes the formula of exp_of_negative() for one number, because that function takes two at
-// once.
+// Computes the formula of exp_of_negative() for one number. The original function takes two numbers
+// at once.
 double one_exp(double x) {
   const double t = std::max(x, -40.0) * 1.4426950408889634, whole = std::floor(t + 0.5);
   const double f = (t - whole) * 0.6931471805599453;

@@ -12,7 +12,7 @@ using test::Dice;
 
 struct Decision {
   std::uint32_t value;
-  int model;  // index of an adaptive bit, or minus the number of raw bits
+  int model;  // index of an adaptive bit; if negative, minus the number of raw bits
 };
 
 std::vector<std::uint8_t> encode(const std::vector<Decision>& decisions) {

@@ -12,7 +12,7 @@ std::string hash(std::string_view text) {
   return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
 }
 
-// The examples of FIPS 180-4, and one input for each kind of padding.
+// Hashes the examples of FIPS 180-4, and one input for each kind of padding.
 TEST(Sha256, KnowsTheStandardVectors) {
   EXPECT_EQ(hash(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
@@ -48,6 +48,13 @@ TEST(Sha256, HexIsReadBackAndNothingElse) {
   EXPECT_FALSE(from_hex(to_hex(digest).substr(1), read));
   EXPECT_FALSE(from_hex(std::string(64, 'G'), read));
   EXPECT_FALSE(from_hex(std::string(64, 'A'), read));
+  for (std::size_t at = 0; at < 64; ++at) {
+    for (const char wrong : {'g', '/', ':', '`', ' ', '\xff'}) {
+      std::string text(64, 'f');
+      text[at] = wrong;
+      EXPECT_FALSE(from_hex(text, read)) << at;
+    }
+  }
 }
 
 }  // namespace

@@ -24,8 +24,9 @@ Vec3 on_edge(const ConvexPiece& piece, std::size_t corner, Random& random) {
   return a + (b - a) * share;
 }
 
-// Cuts along lines through two points on a piece's edges. The pieces lie far from the origin, where
-// rounding puts corners on alternating sides of the cut.
+// Cuts pieces along lines through two points on their edges. The pieces lie far from the origin,
+// where rounding puts corners on alternating sides of the cut. A cut may therefore add more corners
+// than in exact arithmetic.
 TEST(ConvexPiece, HoldsTheCornersThatRoundingAddsToACut) {
   Random random(1);
   std::size_t most = 0;

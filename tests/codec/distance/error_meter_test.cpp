@@ -27,7 +27,7 @@ double diagonal(const TriangleMesh& mesh) {
   return length(high - low);
 }
 
-// Moves each vertex far along the surface, so that the surface itself hardly moves.
+// Moves each vertex by 0.4 along the surface, so that the surface itself hardly moves.
 TEST(ErrorMeter, BoundIsTrueAndTightForVerticesThatSlide) {
   const auto slide = [](const Vec3& p) { return p + Vec3{0.4, 0, 0}; };
   TriangleMesh slid = sheet(60, 50);
@@ -122,8 +122,8 @@ TEST(ErrorMeter, ATangleIsMeasuredInBoundedWork) {
   EXPECT_LT(error.max_error, 0.05);
 }
 
-// Measures long triangles around one vertex. The bounding boxes of a quarter of them overlap at any
-// point, so that each search takes long.
+// Measures long triangles around one vertex. At any point, the bounding boxes of a quarter of them
+// overlap, so each search takes long.
 TEST(ErrorMeter, AFanOfManyFacesAtOneVertexIsMeasuredInBoundedWork) {
   const auto fan = [](std::uint32_t n, double height) {
     TriangleMesh mesh{{{0, 0, height}}, {}, {}};

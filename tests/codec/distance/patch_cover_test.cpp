@@ -123,8 +123,8 @@ TriangleMesh crumpled(Dice& dice) {
   return mesh;
 }
 
-// Covered points must be within `height`. So must points of marked triangles, even if the cover
-// failed.
+// The result's `height` must bound the distance of covered points. It must also bound the distance
+// of points of marked triangles, even if the cover failed.
 TEST(PatchCover, BoundsWhatItCoversAndMarks) {
   std::size_t covered = 0, marked_without_cover = 0;
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the nodes that searches visit in surfaces with many triangles around one vertex or edge.
+// Tests surfaces with many triangles around one vertex or edge. Counts how many nodes each search
+// visits, and how often triangles are cut to bound the error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "codec/distance/error_meter.h"
 #include "codec/distance/witness_surface.h"
+#include "codec/repair/triangulate.h"
 #include "support/meshes.h"
 
 namespace vitrine::test {
@@ -29,8 +31,8 @@ TriangleMesh fan(std::uint32_t count) {
   return mesh;
 }
 
-// Returns `count` triangles at one edge, like the pages of a book. The edge's vertices are not
-// shared, as after a repair.
+// Returns `count` triangles at one edge, like the pages of a book. Each triangle has its own copy
+// of the edge's vertices, as after a repair.
 TriangleMesh pages(std::uint32_t count) {
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -38,6 +40,18 @@ TriangleMesh pages(std::uint32_t count) {
     mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {0, 0, 1}, {tip.x, tip.y, 0.5}});
     mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
+  return mesh;
+}
+
+// Returns a polygon with `count` corners, cut into triangles.
+TriangleMesh polygon(std::uint32_t count) {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    mesh.positions.push_back(rim_point(i, count));
+    corners.push_back(i);
+  }
+  triangulate(mesh.positions, corners, mesh.faces);
   return mesh;
 }
 
@@ -77,7 +91,7 @@ std::uint64_t nodes_visited(const TriangleMesh& mesh) {
 TEST(SlenderSurface, ASearchVisitsHardlyMoreNodesInALargerFan) {
   for (const auto make : {fan, pages}) {
     const std::uint64_t few = nodes_visited(make(4'000)), many = nodes_visited(make(64'000));
-    EXPECT_LE(many, 5 * few);  // 16 * few with axis-aligned boxes alone
+    EXPECT_LE(many, 5 * few);  // would be 16 * few with axis-aligned boxes alone
     EXPECT_LE(many, 600u);
   }
 }
@@ -103,7 +117,7 @@ TEST(SlenderSurface, AnExactQueryFindsTheClosestTriangle) {
   }
 }
 
-// The closest point of every page is on the common edge.
+// The closest point of every page is on the edge that all pages share.
 TEST(SlenderSurface, AnImpreciseQueryStatesHowCloseTrianglesMayBe) {
   TriangleMesh half = pages(6'000);
   half.faces.resize(3'000);
@@ -145,6 +159,39 @@ TEST(SlenderSurface, TheErrorOfAFanIsFound) {
   }());
   EXPECT_GE(lost.max_error, 0.999);  // the tip of a lost page is 1 away from the edge
   EXPECT_LE(lost.max_error, 1.05);
+}
+
+// Measures the levels of a model, each with half as many triangles as the previous one. Returns how
+// often triangles were cut in total.
+std::uint64_t cuts_for_levels(TriangleMesh (*make)(std::uint32_t), std::uint32_t count) {
+  const ErrorMeter meter(make(count));
+  std::uint64_t cuts = 0;
+  for (std::uint32_t triangles = count / 2; triangles >= 150; triangles /= 2)
+    cuts += meter.measure(make(triangles)).cuts;
+  return cuts;
+}
+
+TEST(SlenderSurface, TheErrorsOfALargeFanTakeNLogNCuts) {
+  for (const std::uint32_t count : {10'000, 20'000, 40'000, 80'000}) {
+    for (const auto make : {fan, pages, polygon}) {
+      const double most = count * std::log2(count);
+      EXPECT_LE(static_cast<double>(cuts_for_levels(make, count)), most) << count;
+    }
+  }
+}
+
+// The fan with 100 rim points cuts off arcs of the rim. Its bound must be at least the distance
+// between chord and arc, and at most 2 % more.
+TEST(SlenderSurface, TheBoundOfAFanIsTrueAndTight) {
+  TriangleMesh flat = fan(20'000), level = fan(100);
+  for (TriangleMesh* mesh : {&flat, &level}) {
+    for (Vec3& p : mesh->positions)
+      p.z = 0;
+  }
+  const double sagitta = 1 - std::cos(std::numbers::pi / 100);
+  const double error = ErrorMeter(flat).measure(level).max_error;
+  EXPECT_GE(error, sagitta * (1 - 1e-9));
+  EXPECT_LE(error, sagitta * 1.02);
 }
 
 }  // namespace

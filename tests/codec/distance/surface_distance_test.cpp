@@ -177,7 +177,7 @@ TEST(DistanceMap, IsRedOutsideBlueInsideAndGreyWhereBothAgree) {
   EXPECT_EQ(map->mesh.attributes.colours, (std::vector<Colour>{grey, {207, 131, 127}, red, blue}));
 }
 
-// Returns a torus, of which every `nth` vertex is moved far away.
+// Returns a torus with every `nth` vertex moved far away.
 TriangleMesh torus_with_outliers(std::size_t nth) {
   TriangleMesh mesh = torus(40, 20);
   for (std::size_t v = 0; v < mesh.positions.size(); v += nth)

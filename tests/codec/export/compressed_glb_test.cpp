@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests compressed GLB files, and how few bits the numbers of all GLB files take. The reader of
-// Vitrine decompresses the files; tests/web/exports does so with three.js.
+// Tests compressed GLB files, and that all GLB files store numbers with as few bits as possible.
+// Vitrine's own reader decompresses the files here; tests/web/exports decompresses them with
+// three.js.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,8 +50,8 @@ ImportedMesh read_glb_file(const std::string& file) {
   return read ? std::move(*read) : ImportedMesh{};
 }
 
-// Expects the same vertices in any order, each within `distance` of its old place, and faces
-// between the same vertices. Colours tell which vertex is which.
+// Expects the same faces and vertices, possibly in another order. Each position may be off by up to
+// `distance` along each axis. Colours identify the vertices.
 void expect_same(const TriangleMesh& found, const TriangleMesh& mesh, double distance) {
   std::map<Colour, std::uint32_t> by_colour;
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
@@ -190,7 +191,7 @@ TEST(WriteGlb, ColoursHave8BitsIfTheseRestoreThem) {
   const std::string light = file_of(mesh, {});
   EXPECT_THAT(light, HasSubstr(R"("componentType":5121,"normalized":true,"type":"VEC4")"));
   EXPECT_EQ(read_glb_file(light).mesh.attributes.colours, mesh.attributes.colours);
-  mesh.attributes.colours[1] = {3, 4, 5};  // equal in 8 bits of linear light
+  mesh.attributes.colours[1] = {3, 4, 5};  // all three become 0 in 8 bits of linear light
   const std::string dark = file_of(mesh, {});
   EXPECT_THAT(dark, HasSubstr(R"("componentType":5123,"normalized":true,"type":"VEC4")"));
   EXPECT_EQ(read_glb_file(dark).mesh.attributes.colours, mesh.attributes.colours);

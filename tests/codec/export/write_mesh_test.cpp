@@ -56,8 +56,8 @@ TriangleMesh read_back(const TriangleMesh& mesh, MeshFormat format) {
   return std::move(read->mesh);
 }
 
-// Returns a material with a picture in PNG, for the faces of a mesh. Two faces of a quad have
-// different coordinates at the vertices that they share.
+// Returns a material with a PNG picture, and texture coordinates for each face of `mesh`. Every
+// edge is a seam: adjacent faces have different coordinates at their common vertices.
 Texturing seams_everywhere(const TriangleMesh& mesh) {
   Texturing texturing;
   texturing.pictures = {{"a.png", write_png({2, 1, {255, 0, 0, 255, 0, 0, 255, 128}}).value()}};
@@ -82,7 +82,7 @@ std::vector<MeshFile> textured_files(const TriangleMesh& mesh, const Texturing& 
   return files ? std::move(*files) : std::vector<MeshFile>(1);
 }
 
-// Reads the first file, with the other files as its companions.
+// Reads the first file. The other files are its companions, such as pictures.
 ImportedMesh read_files(const std::vector<MeshFile>& files) {
   ReadOptions options;
   for (std::size_t i = 1; i < files.size(); ++i)
@@ -118,7 +118,8 @@ TEST(WriteTexturedMesh, GlbHoldsTheTexture) {
   EXPECT_EQ(material.base_colour_map->wrap_u, Wrap::kClamp);
 }
 
-// Checks that a texture has the faces, the coordinates within rounding, and the base colours.
+// Expects that the mesh read back has the same faces and picture, and the same texture coordinates
+// up to rounding.
 void expect_same_texture(const ImportedMesh& back, const TriangleMesh& mesh,
                          const Texturing& texturing) {
   EXPECT_EQ(back.mesh.positions, mesh.positions);
@@ -266,7 +267,7 @@ void expect_near(const std::vector<Vec3>& found, const std::vector<Vec3>& expect
     EXPECT_LT(length(found[i] - expected[i]), 1e-4) << i;
 }
 
-// A pyramid of unequal faces, for normals that are weighted by area.
+// Returns a tetrahedron with faces of unequal area, for tests of normals that are weighted by area.
 TriangleMesh skew_tetrahedron() {
   TriangleMesh mesh = coloured_tetrahedron();
   mesh.positions[3] = {0, 0, 3};
@@ -417,8 +418,8 @@ TEST(WriteMesh, DracoHoldsTheSameSurfaceWithin24Bits) {
   const auto* positions = back.GetNamedAttribute(draco::GeometryAttribute::POSITION);
   const auto* colours = back.GetNamedAttribute(draco::GeometryAttribute::COLOR);
   ASSERT_NE(colours, nullptr);
-  // Colours survive exactly, so a colour identifies its vertex. The first and the last vertex are
-  // exceptions.
+  // Each decoded point must have exactly the colour of a vertex and lie within one quantisation
+  // step of it.
   double widest = 0;
   for (const Vec3& p : mesh.positions)
     widest = std::max(widest, std::abs(p.y));

@@ -39,8 +39,8 @@ std::string layer_of(const TriangleMesh& mesh, const ExportOptions& options = {}
   return package_of(mesh, {}, options)["model.usda"];
 }
 
-// Returns a material with four pictures. Two faces of a quad have different coordinates at the
-// vertices that they share.
+// Returns a material with four pictures. Every edge is a seam: adjacent faces have different
+// texture coordinates at their common vertices.
 Texturing four_pictures_with_seams(const TriangleMesh& mesh) {
   Texturing texturing;
   for (const char* name : {"base.png", "normal.png", "surface.png", "emission.png"})

@@ -58,7 +58,7 @@ TEST(Zip, LocalHeadersAgreeWithTheDirectory) {
   std::size_t entries = 0;
   for (std::size_t at = 0; (at = text.find("PK\1\2", at)) != text.npos; ++at, ++entries) {
     const std::size_t local = number_at<std::uint32_t>(packed, at + 42);
-    const std::size_t shared = 24;  // from the version to the size of the name
+    const std::size_t shared = 24;  // bytes that both headers share, from version to name length
     ASSERT_EQ(text.substr(local, 4), "PK\3\4");
     EXPECT_EQ(text.substr(local + 4, shared), text.substr(at + 6, shared));
     EXPECT_EQ(number_at<std::uint16_t>(packed, local + 6), 0) << "no descriptor after the bytes";
@@ -66,7 +66,7 @@ TEST(Zip, LocalHeadersAgreeWithTheDirectory) {
   EXPECT_EQ(entries, 3u);
 }
 
-// Finds the files as readers of USDZ do: by the local headers, one after the other.
+// Finds the files as readers of USDZ do: from each local header to the next.
 TEST(StoredZip, LocalHeadersLeadToAlignedFilesWhateverTheirNames) {
   for (std::size_t length = 1; length <= 65; ++length) {
     const std::vector<MeshFile> files = {{std::string(length, 'a'), {1, 2, 3}},

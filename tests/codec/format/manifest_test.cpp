@@ -33,7 +33,8 @@ void add_levels(Dice& dice, Manifest& m) {
   if (m.levels.size() > 1) m.levels[0].shift = dice.below(kMaxShift + 1);
 }
 
-// Adds a node and all nodes below it. The node may fork at `level` or at a finer level.
+// Adds a node and all nodes below it to the region tree. The node may fork at `level` or at a finer
+// level.
 void add_node(Dice& dice, std::uint32_t level, Manifest& m) {
   const auto levels = static_cast<std::uint32_t>(m.levels.size());
   RegionNode node;
@@ -183,7 +184,7 @@ TEST(Manifest, EveryByteOfAHeaderIsProtected) {
   EXPECT_TRUE(parse_header(bytes));
 }
 
-// Changes a valid manifest by `change` and expects that the reader refuses the result. Returns the
+// Applies `change` to a valid manifest. Expects that the reader refuses the result, and returns the
 // error message.
 template <class Change>
 std::string refusal(const Change& change) {
@@ -258,8 +259,8 @@ TEST(Manifest, RefusesATreeWhoseChildForksBeforeItsParent) {
   EXPECT_NE(parsed.error().message.find("part of"), std::string::npos) << parsed.error().message;
 }
 
-// A reader's memory must be bounded by the bytes read. An empty chunk must therefore not state a
-// million splits.
+// A reader's memory must stay in proportion to the bytes that it reads. An empty chunk must
+// therefore not state a million splits.
 TEST(Manifest, RefusesMoreVerticesThanAChunkOfItsLengthBrings) {
   const auto with = [](std::uint32_t splits, std::uint64_t length, std::uint32_t inserted = 0) {
     return refusal([=](Manifest& m) {

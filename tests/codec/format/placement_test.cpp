@@ -59,7 +59,8 @@ TEST(Placement, LevelsAlternateTheirParityFromTheFinest) {
   EXPECT_EQ(level_parity(1, 9), 0);
 }
 
-// Tests r = 2 (sum(opposite) / 4m - sum(others) / 4n), rounded half up.
+// Tests r = 2 (sum(opposite) / 4m - sum(others) / 4n), rounded half up. m and n are the numbers of
+// points in `opposite` and `others`.
 TEST(Placement, PyramidTermRoundsHalfUpAndAddsTheParity) {
   const std::vector<Vec3i> opposite = {{3, -3, 10}, {4, -4, 10}}, others = {{0, 0, 4}};
   // The values before rounding are 1.75, -1.75 and 3.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests which materials, pictures and texture coordinates a mesh keeps from OBJ and PLY files.
 #include "codec/import/reading.h"
+#include "codec/picture/bitmaps.h"
 #include "codec/picture/pictures.h"
 
 namespace vitrine {
@@ -13,6 +14,7 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using vitrine::testing::as_bytes;
 using vitrine::testing::as_text;
+using vitrine::testing::expect_counts_and_steps;
 using vitrine::testing::png_of;
 using vitrine::testing::red_and_blue;
 
@@ -25,6 +27,7 @@ ImportedMesh read_carried(const std::string& text,
     beside[name] = as_bytes(contents);
   auto result = read_mesh(as_bytes(text), {.beside = beside});
   EXPECT_TRUE(result.has_value()) << result.error().message;
+  if (result) expect_counts_and_steps(result->repairs);
   return result ? *std::move(result) : ImportedMesh{};
 }
 
@@ -67,8 +70,9 @@ TEST(ObjTexturing, StatementsOfTheLibraryBecomeAMaterial) {
   EXPECT_NE(a.base_colour_map->picture, a.normal_map->picture);
   EXPECT_THAT(b.base_colour, ElementsAre(1, 0, 0, 0.75));
   EXPECT_EQ(result.texturing.materials[2].alpha_mode, AlphaMode::kBlend);
-  EXPECT_THAT(result.repairs, Contains("material maps not carried: disp, map_Ks; bake them into "
-                                       "map_Kd, or into a normal map named by norm"));
+  EXPECT_THAT(result.repairs,
+              Contains("2 kinds of material maps not carried: disp, map_Ks; bake them into the "
+                       "diffuse map (map_Kd), or into a normal map (norm)"));
 }
 
 TEST(ObjTexturing, ABumpMapIsCarriedIfItShowsNormals) {
@@ -97,7 +101,8 @@ TEST(ObjTexturing, SeveralPathsOfAFileAreOnePicture) {
   const std::string library = "newmtl a\nmap_Kd x/p.png\nnewmtl b\nmap_Kd y\\P.png\n";
   const auto intact = read_carried(obj, {{"a.mtl", library}, {"p.png", red_and_blue()}});
   EXPECT_THAT(intact.texturing.pictures, SizeIs(1));
-  EXPECT_THAT(intact.repairs, Contains("1 texture map baked into vertex colours"));
+  EXPECT_THAT(intact.repairs,
+              Contains("1 texture map baked into vertex colours; no step is needed"));
   const auto damaged =
       read_carried(obj, {{"a.mtl", library}, {"p.png", red_and_blue().substr(0, 40)}});
   EXPECT_TRUE(damaged.texturing.empty());
@@ -157,6 +162,15 @@ TEST(PlyTexturing, CoordinatesOfVerticesAreThoseOfTheirCorners) {
   }
 }
 
+TEST(PlyTexturing, ATgaIsKeptAsPng) {
+  const auto read = read_carried(
+      textured_ply("comment TextureFile a.tga\n", "", "property list uchar float texcoord\n",
+                   kPlyVertices + "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0 0 1 0 1 1\n"),
+      {{"a.tga", vitrine::testing::tga_of({255, 0, 0, 0, 0, 255}, 2)}});
+  EXPECT_TRUE(as_text(read.texturing.pictures.at(0).bytes).starts_with("\x89PNG"));
+  EXPECT_THAT(read.repairs, Contains(HasSubstr("1 texture map kept as PNG")));
+}
+
 TEST(PlyTexturing, AListOfTheWrongLengthGivesZeros) {
   const auto result =
       read_carried(
@@ -182,7 +196,8 @@ TEST(PlyTexturing, NoNoteSaysThatACarriedPictureIsNotCarried) {
                    kPlyVertices + "3 0 1 2 6 0 0 1 0 1 1 0\n3 0 2 3 6 0 0 1 1 0 1 1\n"),
       {{"a.png", red_and_blue()}, {"b.png", png_of({1, 2, 3}, 1)}});
   EXPECT_THAT(several.texturing.pictures, SizeIs(2));
-  EXPECT_THAT(several.repairs, ElementsAre());
+  EXPECT_THAT(several.repairs,
+              ElementsAre("2 texture maps baked into vertex colours; no step is needed"));
 }
 
 TEST(PlyTexturing, PicturesWithoutCoordinatesAreNamed) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests which materials, pictures and texture coordinates a mesh keeps from glTF files.
 #include "codec/import/textured_gltf.h"
+#include "codec/picture/bitmaps.h"
 
 namespace vitrine {
 namespace {
@@ -88,6 +89,18 @@ TEST(GltfTexturing, NumbersOutOfRangeAreClamped) {
   EXPECT_THAT(material.base_colour, ElementsAre(1, 0, 0, 1));
 }
 
+TEST(GltfTexturing, AMaterialWithoutPicturesIsKeptForItsRoughness) {
+  const auto materials = [](double roughness) {
+    GlbBuilder builder = textured(red_and_blue());
+    builder.document["materials"][0]["pbrMetallicRoughness"] = {{"metallicFactor", 0},
+                                                                {"roughnessFactor", roughness}};
+    return read_text(builder.file()).texturing.materials;
+  };
+  EXPECT_THAT(materials(0.5), SizeIs(1));
+  EXPECT_THAT(materials(1), SizeIs(0)) << "glTF's own default";
+  EXPECT_THAT(materials(0.8), SizeIs(0)) << "what exports of meshes without textures say";
+}
+
 TEST(GltfTexturing, NormalisedCoordinatesAndASecondSetAreRead) {
   GlbBuilder builder = textured(red_and_blue());
   const std::size_t bytes = builder.accessor(
@@ -152,10 +165,25 @@ TEST(GltfTexturing, APictureOfAnotherFormatIsLeftOutAndNamedOnce) {
   const auto result = read_text(builder.file());
   EXPECT_FALSE(result.texturing.materials.at(0).normal_map);
   EXPECT_THAT(result.texturing.pictures, SizeIs(1));
-  EXPECT_THAT(result.repairs,
-              ElementsAre("1 texture map baked into vertex colours",
-                          "texture map 1 not carried: it is image/ktx2; convert it to PNG, JPEG or "
-                          "WebP (1 more like it)"));
+  EXPECT_THAT(
+      result.repairs,
+      ElementsAre("1 texture map baked into vertex colours; no step is needed",
+                  "2 texture maps, first image 1, not carried: it is image/ktx2; convert it "
+                  "to PNG, JPEG or WebP"));
+}
+
+TEST(GltfTexturing, TiffBmpAndTgaAreKeptAsPng) {
+  const std::vector<std::uint8_t> pixels{255, 0, 0, 0, 0, 255};
+  for (const std::string& picture :
+       {vitrine::testing::tiff_of(pixels), vitrine::testing::bmp_of(pixels, 2),
+        vitrine::testing::tga_of(pixels, 2)}) {
+    const auto read = read_text(textured(picture).file());
+    EXPECT_EQ(read.mesh.attributes.colours,
+              read_text(textured(red_and_blue()).file()).mesh.attributes.colours);
+    ASSERT_THAT(read.texturing.pictures, SizeIs(1));
+    EXPECT_TRUE(as_text(read.texturing.pictures[0].bytes).starts_with("\x89PNG"));
+    EXPECT_THAT(read.repairs, Contains(HasSubstr("1 texture map kept as PNG")));
+  }
 }
 
 TEST(GltfTexturing, WhatIsNotCarriedIsNamed) {
@@ -180,7 +208,8 @@ TEST(GltfTexturing, CoordinatesThatAreNotFiniteBecomeZero) {
   EXPECT_THAT(result.repairs, Contains(HasSubstr("1 texture coordinate without finite values")));
 }
 
-// Many images can refer to the same bytes. Without a limit, each would be a copy of these bytes.
+// Many images can refer to the same bytes. If each image made a copy of these bytes, memory would
+// not be bounded.
 TEST(GltfTexturing, PicturesTogetherAreNotLargerThanTheFile) {
   std::string picture = red_and_blue();
   picture += std::string(2000, 'x');

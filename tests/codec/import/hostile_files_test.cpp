@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads files that are truncated after each byte, or have any one byte changed. The result must be
-// an error or a valid mesh. The memory used must stay within a multiple of the file's size.
+// Reads files that are truncated after each byte, or in which one byte is changed. The result must
+// be an error or a valid mesh. The memory used must stay within a multiple of the file's size.
 #include "codec/export/write_mesh.h"
+#include "codec/import/dae_builder.h"
+#include "codec/import/fbx_builder.h"
 #include "codec/import/textured_gltf.h"
 #include "codec/mesh/connectivity.h"
 #include "codec/repair/repair.h"
@@ -14,26 +16,32 @@ namespace {
 using vitrine::testing::as_bytes;
 using vitrine::testing::as_text;
 using vitrine::testing::coloured_tetrahedron;
+using vitrine::testing::dae_source;
+using vitrine::testing::DaeFile;
 using vitrine::testing::GlbBuilder;
 using vitrine::testing::png_of;
 using vitrine::testing::textured;
+using vitrine::testing::textured_dae;
+using vitrine::testing::textured_fbx;
 
-// Heap bytes allowed for error messages and repair messages, besides the multiple of the file's
-// size.
+// Heap bytes allowed for error and repair messages, in addition to the multiple of the file's size.
 constexpr std::size_t kHeapAlways = 512;
+// Heap bytes that Assimp needs for any FBX file.
+constexpr std::size_t kHeapOfAssimp = 1 << 18;
 
 struct IntactFile {
   std::string name, bytes;
   std::size_t heap_per_byte;  // allowed heap bytes per byte of the file and its companions
   Companions beside = {};
+  std::size_t heap_always = kHeapAlways;
 };
 
 std::string written(MeshFormat format) {
   return as_text(*write_mesh(coloured_tetrahedron(), format));
 }
 
-// Returns a PLY with a single byte per number. Its faces join vertices at random, so repair must
-// split many vertices.
+// Returns a PLY in which each number takes one byte. Its faces join vertices at random, so repair
+// must split many vertices.
 std::string densest_ply() {
   std::string ply =
       "ply\nformat binary_little_endian 1.0\nelement vertex 50\nproperty uchar x\n"
@@ -89,7 +97,7 @@ std::string densest_textured_obj() {
   return obj + "\nusemtl b\nf 1 2 3\nusemtl a\nf 3 2 1\n";
 }
 
-// Returns a PLY with a single byte per number. Its faces alternate between two materials.
+// Returns a PLY in which each number takes one byte. Its faces alternate between two materials.
 std::string densest_textured_ply() {
   std::string ply =
       "ply\nformat binary_little_endian 1.0\ncomment TextureFile p\ncomment TextureFile q\n"
@@ -144,7 +152,9 @@ std::vector<IntactFile> intact_files() {
        "endloop\nendfacet\nendsolid a\n",
        1},
       {"OFF", "COFF\n00000003 00000001 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n00000003 0 1 2\n",
-       1}};
+       1},
+      {"DAE", textured_dae("p").text(), 4, picture_and_library()},
+      {"FBX", textured_fbx("p", kPicture).file(), 8, {}, kHeapOfAssimp}};
 }
 
 Expected<RepairedMesh> read_and_repair(std::span<const std::uint8_t> bytes,
@@ -171,7 +181,7 @@ void expect_error_or_sound_mesh(const IntactFile& file, const std::string& bytes
   const std::size_t before = test::heap_bytes();
   const auto repaired = read_and_repair(copy, file.beside);
   const std::size_t size = copy.size() + size_of(file.beside);
-  EXPECT_LE(test::peak_heap_bytes() - before, kHeapAlways + file.heap_per_byte * size);
+  EXPECT_LE(test::peak_heap_bytes() - before, file.heap_always + file.heap_per_byte * size);
   if (!repaired) {
     EXPECT_FALSE(repaired.error().message.empty());
     EXPECT_EQ(repaired.error().message.find('\n'), std::string::npos);
@@ -212,8 +222,8 @@ TEST(HostileFiles, EveryByteReplaced) {
   }
 }
 
-// A mesh that a scene shows `count` times. Its primitives alternate between two materials. Each
-// primitive has `vertices` vertices and `faces` faces. Primitives with the same material share
+// A mesh of which a scene shows `count` instances. Its primitives alternate between two materials.
+// Each primitive has `vertices` vertices and `faces` faces. Primitives with the same material share
 // vertices.
 struct Instances {
   std::size_t count, primitives, vertices, faces;
@@ -224,9 +234,9 @@ struct Instances {
   std::size_t all_faces() const { return count * primitives * faces; }
 };
 
-// Returns a GLB that gives about one vertex and one face per byte of the file. Vertices have both
-// sets of texture coordinates and a colour from a texture. All attributes are views of the same few
-// bytes.
+// Returns a GLB that is read as about one vertex and one face per byte of the file. Vertices have
+// both sets of texture coordinates and a colour from a texture. All attributes are views of the
+// same few bytes.
 std::string densest_instances(const Instances& instances) {
   using Json = GlbBuilder::Json;
   GlbBuilder builder = textured(kPicture);
@@ -274,6 +284,27 @@ TEST(HostileFiles, InstancesWithBothSetsOfCoordinatesKeepTheBoundOfReading) {
     EXPECT_LE(peak, test::kReadingGlbHeap.of(file.size()))
         << static_cast<double>(peak) / static_cast<double>(file.size()) << " bytes per byte";
   }
+}
+
+// Many <source> elements of a DAE file refer to the same long array.
+TEST(HostileFiles, SourcesThatShareAnArrayKeepTheBoundOfReading) {
+  std::string numbers;
+  for (int i = 0; i < 20'000; ++i)
+    numbers += "0 ";
+  DaeFile dae{.sources = dae_source("n", numbers, 1)};
+  for (int i = 0; i < 500; ++i) {
+    const std::string id = "t" + std::to_string(i);
+    dae.sources += "<source id=\"" + id +
+                   R"("><technique_common><accessor source="#na"/></technique_common></source>)";
+    dae.inputs += R"(<input semantic="TEXCOORD" source="#)" + id + "\"/>";
+  }
+  const std::string file = dae.text();
+  test::start_peak();
+  const std::size_t before = test::heap_bytes();
+  const auto read = read_mesh(as_bytes(file));
+  const std::size_t peak = test::peak_heap_bytes() - before;
+  EXPECT_TRUE(read) << read.error().message;
+  EXPECT_LE(peak, test::kReadingHeap.of(file.size()));
 }
 
 }  // namespace

@@ -29,8 +29,6 @@ TEST(OtherFiles, EachKindIsNamedWithItsNextStep) {
       {"PK\5\6" + nothing, "an empty ZIP package: ", "pack it again"},
       {"7z\xBC\xAF\x27\x1C" + nothing, "a 7z package: ", "unpack it"},
       {"Rar!\x1A\x07" + nothing, "a RAR package: ", "unpack it"},
-      {"Kaydara FBX Binary  ", "an FBX file: ", "Blender"},
-      {"; FBX 7.3.0 project file\n", "an FBX file: ", "Blender"},
       {"BLENDER-v300", "a Blender file: ", "GLB"},
       {"PXR-USDC", "a USD file: ", "Blender"},
       {"#usda 1.0\n", "a USD file: ", "Blender"},
@@ -42,7 +40,6 @@ TEST(OtherFiles, EachKindIsNamedWithItsNextStep) {
       {"ASTM-E57" + nothing, "an E57 point cloud: ", "mesh it"},
       {"LASF" + nothing, "a LAS or LAZ point cloud: ", "mesh it"},
       {"1.5 2 3 255 0 0\n1 2 4 0 0 0\n1 2 5 0 0 0\n", "a list of points: ", "mesh it"},
-      {"<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"\">", "a COLLADA file (DAE): ", "Blender"},
       {"<?xml version=\"1.0\"?>\n<X3D>", "an X3D file: ", "MeshLab"},
       {"<?xml version=\"1.0\"?>\n<a/>", "an XML file: ", "OBJ"},
       {"\n<!DOCTYPE html>\n<html>", "a web page: ", "download the model"},
@@ -74,7 +71,15 @@ TEST(OtherFiles, EachKindIsNamedWithItsNextStep) {
       {std::string(128, '\0') + "DICM" + nothing, "a DICOM file: ", "3D Slicer"},
       {"# vtk DataFile Version 3.0\n", "a VTK file: ", "ParaView"},
       {"#X3D V3.3 utf8", "an X3D file: ", "MeshLab"},
-      {"b3dm" + nothing, "a tile of 3D Tiles: ", "GLB"}};
+      {"b3dm" + nothing, "a tile of 3D Tiles: ", "GLB"},
+      {R"({"asset":{"version":"1.0"},"geometricError":500,"root":{}})",
+       "a tileset of 3D Tiles: ", "GLB"},
+      {"xof 0303txt 0032", "a DirectX file: ", "GLB, OBJ or STL"},
+      {"AC3Db\nMATERIAL", "an AC3D file: ", "GLB, OBJ or STL"},
+      {"Metasequoia Document\n", "a Metasequoia file: ", "GLB, OBJ or STL"},
+      {"\xA1\x0E\x91\x6C\x45\x45\xFB\x1A", "an OpenSceneGraph file: ", "osgconv"},
+      {"IDP2" + nothing, "a Quake model: ", "GLB, OBJ or STL"},
+      {"\nCASCADE Topology V1, (c) Matra-Datavision\n", "a BREP file: ", "FreeCAD"}};
   for (const NamedFile& file : files) {
     EXPECT_THAT(refusal(file.start),
                 AllOf(StartsWith("this is " + file.name), HasSubstr(file.step)));
@@ -88,6 +93,8 @@ TEST(OtherFiles, TheNameCountsIfTheBytesDoNotTellTheKind) {
   };
   EXPECT_THAT(named("\1\2\3", "a/Bust.ZTL"), StartsWith("this is a ZBrush file: "));
   EXPECT_THAT(named("\xD0\xCF\x11\xE0", "a.sldprt"), StartsWith("this is a SolidWorks file: "));
+  EXPECT_THAT(named("a,b\n1,2\n", "a.csv"), StartsWith("this is a table: "));
+  EXPECT_THAT(named("Dear museum", "a.txt"), StartsWith("this is a text: "));
   EXPECT_THAT(named("%PDF-1.7", "a.ztl"), StartsWith("this is a PDF document: "));
   EXPECT_THAT(named("\1\2\3", "a.stl"), StartsWith("not a mesh file that Vitrine reads"));
   EXPECT_THAT(named(test::zip_of({{"a.ztl", "\1"}}), "b.zip"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests 3MF packages as slicers and CAD programs write them.
+// Tests 3MF packages of the kinds that slicers and CAD programs write.
 #include "codec/import/reading.h"
 #include "support/packages/write_package.h"
 
@@ -66,6 +66,54 @@ TEST(Read3mf, UnitsAreKeptOrConverted) {
   EXPECT_EQ(height_in("", "mm"), 2);
 }
 
+std::string requiring(const std::string& prefixes, const std::string& name) {
+  return "requiredextensions=\"" + prefixes + "\" xmlns:x=\"http://example.org/" + name + "\"";
+}
+
+TEST(Read3mf, RequiredExtensionsThatAreNotReadAreNamed) {
+  const auto with = [](const std::string& attributes) {
+    return package(part(object("1", kTriangle), kItem, attributes));
+  };
+  EXPECT_THAT(read_text(with(requiring("m p", "y"))).repairs, ElementsAre());
+  EXPECT_THAT(
+      read_text(with(requiring("p x", "slice/2015/07"))).repairs,
+      ElementsAre("1 required extension not read, such as 'http://example.org/slice/2015/07'; "
+                  "compare the model with its source"));
+  EXPECT_THAT(
+      refusal(with(requiring("x", "booleanoperations/2023/07"))),
+      HasSubstr("needs the extension 'http://example.org/booleanoperations/2023/07', which is "
+                "not read; export it as a plain mesh"));
+}
+
+TEST(Read3mf, BeamsAreCounted) {
+  const std::string lattice =
+      "<b:beamlattice><b:beams><b:beam v1=\"0\" v2=\"1\"/><b:beam v1=\"1\" "
+      "v2=\"2\"/></b:beams></b:beamlattice></mesh>";
+  std::string mesh = kTriangle;
+  mesh.replace(mesh.find("</mesh>"), 7, lattice);
+  EXPECT_THAT(read_text(package(part(object("1", mesh), kItem))).repairs,
+              ElementsAre("2 beams of lattices not carried; export them as a mesh"));
+}
+
+TEST(Read3mf, ColoursPaintedInASlicerAreCounted) {
+  for (const std::string attribute : {"paint_color=\"8\"", "slic3rpe:mmu_segmentation=\"4\""}) {
+    std::string mesh = kTriangle;
+    mesh.replace(mesh.find("<triangle v1"), 9, "<triangle " + attribute);
+    EXPECT_THAT(read_text(package(part(object("1", mesh), kItem))).repairs,
+                ElementsAre(HasSubstr("colours painted in the slicer on 1 face not carried")))
+        << attribute;
+  }
+}
+
+TEST(Read3mf, LostOpacityIsCounted) {
+  const std::string colours =
+      "<m:colorgroup id=\"2\"><m:color color=\"#FF0000FF\"/><m:color color=\"#00FF0080\"/>"
+      "</m:colorgroup>";
+  const auto read =
+      read_text(package(part(colours + object("1", kTriangle, "pid=\"2\" pindex=\"1\""), kItem)));
+  EXPECT_THAT(read.repairs, Contains(HasSubstr("opacity of 1 colour not carried: ")));
+}
+
 TEST(Read3mf, ComponentsAreRepeatedAndMoved) {
   const std::string both =
       "<components><component objectid=\"1\"/>"
@@ -100,7 +148,7 @@ TEST(Read3mf, ColoursOfMaterialsAndGroups) {
             std::vector(3, Colour{0, 0, 255}));
   EXPECT_THAT(
       read_text(package(part(object("1", kTriangle, "pid=\"7\" pindex=\"0\""), kItem))).repairs,
-      Contains(HasSubstr("textures of 1 face not carried")));
+      Contains(HasSubstr("textures or mixed materials of 1 face not carried")));
 }
 
 TEST(Read3mf, ColoursOfCornersAreKeptUnlessTheyDifferAtAVertex) {

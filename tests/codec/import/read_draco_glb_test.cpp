@@ -55,7 +55,8 @@ std::string coded(const std::unique_ptr<draco::Mesh>& mesh, int method) {
   return {buffer.data(), buffer.size()};
 }
 
-// Returns a GLB with one primitive, whose compressed data is `data`, as Draco's exporters write it.
+// Returns a GLB as Draco's exporters write it. It has one primitive with the compressed data
+// `data`.
 GlbBuilder around(const std::string& data, std::uint32_t n) {
   GlbBuilder builder;
   builder.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
@@ -87,7 +88,7 @@ std::multiset<PlainTriangle> triangles(const TriangleMesh& mesh) {
   return out;
 }
 
-TEST(ReadDracoGlb, BothMethods) {
+TEST(ReadDracoGlb, ReadsBothMethodsOfDraco) {
   for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
     const auto result = read_text(around(coded(draco_grid(20), method), 20).file());
     EXPECT_EQ(triangles(result.mesh), triangles(grid(20))) << method;
@@ -143,8 +144,8 @@ TEST(ReadDracoGlb, RefusesOtherVersionsMetadataAndDamage) {
               HasSubstr("cannot be decoded"));
 }
 
-// An encoder may merge or split points after the exporter has counted them, so accessors can state
-// wrong counts.
+// An encoder may merge or split points after the exporter has counted them. The counts in the
+// accessors can therefore be wrong.
 TEST(ReadDracoGlb, ThePointsOfTheDataGoBeforeTheCountsOfTheAccessors) {
   for (const int count : {1, 15, 17, 2'000'000'000}) {
     GlbBuilder builder = around(coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING), 3);
@@ -193,11 +194,32 @@ TEST(ReadDracoGlb, RefusesAttributesOutsideTheDataThatHaveAnotherCount) {
   EXPECT_THAT(refusal(builder.file()), HasSubstr("COLOR_0 does not match POSITION"));
 }
 
-TEST(ReadDracoGlb, RefusesAccessorsThatDoNotMatch) {
-  GlbBuilder builder = around(coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING), 3);
-  builder.document["accessors"][1] = builder.document["accessors"][0];
+TEST(ReadDracoGlb, ColoursOfTheDataMayHaveAnOpacityThatTheAccessorLacksAndTheReverse) {
+  const GlbBuilder plain = around(coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING), 3);
+  const auto expected = read_text(plain.file());
+  GlbBuilder builder = plain;
   builder.document["accessors"][1]["type"] = "VEC4";
-  EXPECT_THAT(refusal(builder.file()), HasSubstr("does not match the accessor of 'COLOR_0'"));
+  builder.document["materials"] = {{{"alphaMode", "BLEND"}}};
+  builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+  const auto stated = read_text(builder.file());
+  EXPECT_EQ(stated.mesh.attributes.colours, expected.mesh.attributes.colours);
+  EXPECT_THAT(stated.repairs, ::testing::Each(::testing::Not(HasSubstr("opacity of"))));
+
+  auto mesh = draco_grid(3);
+  std::vector<std::array<std::uint8_t, 4>> colours(16, {255, 0, 0, 128});
+  add_attribute(*mesh, draco::GeometryAttribute::COLOR, draco::DT_UINT8, colours);
+  GlbBuilder stored = around(coded(mesh, draco::MESH_EDGEBREAKER_ENCODING), 3);
+  stored.document["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]
+                 ["attributes"]["COLOR_0"] = 2;
+  EXPECT_THAT(read_text(stored.file()).mesh.attributes.colours, ::testing::Each(Colour{255, 0, 0}));
+}
+
+TEST(ReadDracoGlb, RefusesAccessorsWithMoreComponentsThanTheData) {
+  GlbBuilder builder = around(coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING), 3);
+  Json& primitive = builder.document["meshes"][0]["primitives"][0];
+  primitive["attributes"]["JOINTS_0"] = builder.accessor("VEC4", 5121, 16);
+  primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["JOINTS_0"] = 1;
+  EXPECT_THAT(refusal(builder.file()), HasSubstr("does not match the accessor of 'JOINTS_0'"));
 }
 
 }  // namespace

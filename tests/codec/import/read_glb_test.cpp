@@ -17,7 +17,8 @@ using vitrine::testing::kNotFinite;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 
-// Three corners of a triangle, at byte 0 of the buffer. Tests add their own data at byte 36.
+// The positions of a triangle's corners, at byte 0 of the buffer. Tests append their own data at
+// byte 36.
 const std::string kCorners = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
 constexpr char kViews[] =
     R"("buffers":[{"byteLength":99}],"bufferViews":[{"buffer":0,"byteLength":36},)";
@@ -116,18 +117,34 @@ TEST(ReadGlb, SharesVerticesBetweenPrimitivesAndWeldsSeams) {
       kCorners + bytes_of<float>({1, 0, 0, 1, 1, 0, 0, 1, 0})));
   EXPECT_EQ(result.mesh.positions.size(), 4u);
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{1, 3, 2}));
-  EXPECT_THAT(result.repairs, Contains("2 texture maps not carried"));
+  EXPECT_THAT(result.repairs, Contains(HasSubstr("2 texture maps not carried; ")));
   EXPECT_THAT(result.repairs, Contains(HasSubstr("2 repeated vertices welded")));
 }
 
 TEST(ReadGlb, RefusesByName) {
-  EXPECT_THAT(refusal(plain(R"(,"extensionsRequired":["EXT_unknown"])")),
-              HasSubstr("'EXT_unknown'"));
+  for (const std::string name :
+       {"KHR_meshopt_compression", "KHR_gaussian_splatting", "EXT_mesh_primitive_restart",
+        "MPEG_accessor_timed", "WEB3D_quantized_attributes", "NV_displacement_micromap"})
+    EXPECT_THAT(refusal(plain(R"(,"extensionsRequired":[")" + name + "\"]")),
+                HasSubstr("needs the extension '" + name + "', which is not read; export"));
   EXPECT_THAT(refusal(plain(R"(,"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}])")),
               HasSubstr("two parents"));
   EXPECT_THAT(refusal(glb("{}", "")), HasSubstr("no vertices"));
   EXPECT_THAT(refusal(glb("[[[", "")), HasSubstr("not JSON"));
   EXPECT_THAT(refusal(glb(std::string(100'000, '['), "")), HasSubstr("nested too deeply"));
+}
+
+TEST(ReadGlb, RequiredExtensionsWithoutGeometryAreNoted) {
+  for (const std::string name :
+       {"KHR_lights_punctual", "KHR_xmp_json_ld", "KHR_animation_pointer", "EXT_lights_image_based",
+        "KHR_node_visibility", "EXT_mesh_features", "MSFT_lod"}) {
+    const auto result =
+        read_text(plain(R"(,"extensionsRequired":[")" + name + R"(","KHR_mesh_quantization"])"));
+    EXPECT_EQ(result.mesh.faces.size(), read_text(plain("")).mesh.faces.size());
+    EXPECT_THAT(result.repairs, Contains("1 required extension not read, such as '" + name +
+                                         "'; compare the model with its source, or export the file "
+                                         "without it"));
+  }
 }
 
 TEST(ReadGlb, AFileThatIsCutIsToBeCopiedAgain) {
@@ -170,7 +187,7 @@ TEST(ReadGlb, AnotherVersionOfGltfIsRefused) {
   const auto with = [](const std::string& asset) { return plain(R"(,"asset":)" + asset); };
   EXPECT_THAT(refusal(with(R"({"version":"1.0"})")), HasSubstr("glTF version '1.0' is not read"));
   EXPECT_THAT(refusal(with(R"({"version":"20.0"})")), HasSubstr("'20.0'"));
-  EXPECT_THAT(refusal(with(R"({"version":2.0})")), HasSubstr("''"));
+  EXPECT_THAT(refusal(with(R"({"version":1.0})")), HasSubstr("'1.0'"));
   EXPECT_THAT(refusal(with(R"({"version":"2.1","minVersion":"2.1"})")), HasSubstr("'2.1'"));
   read_text(with(R"({"version":"2.1","minVersion":"2.0"})"));
   read_text(with(R"({"version":"2.7"})"));

@@ -56,7 +56,8 @@ TEST(ReadGltf, BuffersAndPicturesBesideTheFileAreFoundByTheirDecodedNames) {
                   {{"b\xC3\xA9 x.bin", builder.binary()}, {"my skin.png", red_and_blue()}});
   ASSERT_TRUE(result.has_value()) << result.error().message;
   EXPECT_THAT(result->mesh.attributes.colours, ElementsAre(kRed, kBlue, kRed));
-  EXPECT_THAT(result->repairs, ElementsAre("1 texture map baked into vertex colours"));
+  EXPECT_THAT(result->repairs,
+              ElementsAre("1 texture map baked into vertex colours; no step is needed"));
   EXPECT_EQ(result->unit, "m");
 }
 
@@ -74,13 +75,14 @@ TEST(ReadGltf, AMissingFileIsNamedWithTheNextStep) {
   const GlbBuilder builder = skinned();
   EXPECT_EQ(read_beside(builder.text_file("a/b%20c.bin"), {}).error().message,
             "glTF buffer 0 is the file 'a/b c.bin', which is not beside the mesh file; copy it "
-            "there, or export GLB with all in one file");
+            "there, or pack both in one zip");
   const auto result = read_beside(builder.text_file("b.bin"), {{"b.bin", builder.binary()}});
   ASSERT_TRUE(result.has_value());
   EXPECT_THAT(result->repairs, ElementsAre(HasSubstr("it is the file 'maps/My skin.png', which")));
 }
 
-// The reader looks up the picture before the positions.
+// The missing buffer holds the picture and the positions. The reader looks up the picture first,
+// and the error must be the same.
 TEST(ReadGltf, AMissingBufferWithAPictureIsNamedToo) {
   GlbBuilder builder = skinned();
   builder.document["images"][0] = {{"bufferView", builder.view(red_and_blue())}};

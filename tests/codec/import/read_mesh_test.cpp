@@ -16,7 +16,7 @@ TEST(ReadMesh, RefusesAnEmptyFile) {
 TEST(ReadMesh, RefusesOtherContentWhateverTheNameOfTheFile) {
   for (const char* text : {"Dear museum,\nhere is the scan.", "ASTM", "BM", "\n\n"}) {
     EXPECT_THAT(refusal(text), HasSubstr("not a mesh file that Vitrine reads; convert it to PLY, "
-                                         "GLB, glTF, STL, OFF, 3MF or OBJ"));
+                                         "GLB, glTF, STL, OFF, 3MF, DAE, FBX or OBJ"));
   }
 }
 
@@ -71,7 +71,7 @@ TEST(ReadMesh, DropsPointsThatAreNotFiniteWhereNoFaceUsesThem) {
 TEST(ReadMesh, NamesFacesOfFewerThanThreeCorners) {
   const auto result = read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
   EXPECT_THAT(result.repairs, ElementsAre("1 face with fewer than three corners dropped, first at "
-                                          "face 1"));
+                                          "face 1; convert what you need to polygons"));
 }
 
 TEST(ReadMesh, RefusesMoreThanTheLimits) {

@@ -46,7 +46,7 @@ std::vector<std::uint32_t> indices_of(const TriangleMesh& mesh) {
   return indices;
 }
 
-// Adds a compressed buffer view as gltfpack does, with a fallback buffer that has no bytes. Returns
+// Adds a compressed buffer view as gltfpack writes it, whose fallback buffer has no bytes. Returns
 // the index of the view.
 std::size_t compressed_view(GlbBuilder& builder, const std::string& bytes, const char* mode,
                             std::size_t count, std::size_t stride, const char* filter = "NONE") {
@@ -85,25 +85,25 @@ GlbBuilder compressed_grid(std::uint32_t n, const char* index_mode = "TRIANGLES"
   return builder;
 }
 
-// Returns the faces, each rotated to start at its smallest vertex. The index codec may rotate
-// faces, so tests compare rotated ones.
+// Rotates each face to start at its smallest vertex. The index codec may rotate faces, so tests
+// compare faces in this form.
 std::vector<Triangle> turned(std::vector<Triangle> faces) {
   for (Triangle& face : faces)
     std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
   return faces;
 }
 
-TEST(ReadMeshoptGlb, PositionsAndTriangles) {
+TEST(ReadMeshoptGlb, ReadsPositionsAndTriangles) {
   const auto result = read_text(compressed_grid(20).file());
   EXPECT_EQ(result.mesh.positions, grid(20).positions);
   EXPECT_EQ(turned(result.mesh.faces), turned(grid(20).faces));
 }
 
-TEST(ReadMeshoptGlb, IndexSequences) {
+TEST(ReadMeshoptGlb, ReadsIndexSequences) {
   EXPECT_EQ(read_text(compressed_grid(5, "INDICES").file()).mesh.faces, grid(5).faces);
 }
 
-TEST(ReadMeshoptGlb, FloatsWithTheExponentialFilter) {
+TEST(ReadMeshoptGlb, ReadsFloatsWithTheExponentialFilter) {
   std::vector<std::uint32_t> values(12);
   const std::vector<float> corners = {0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -2.25f, 0, 0};
   meshopt_encodeFilterExp(values.data(), 3, 16, 24, corners.data());

@@ -56,7 +56,7 @@ TEST(ReadObj, LinesMayEndInAnyWayAndFaultsKeepTheirLine) {
   }
 }
 
-TEST(ReadObj, Colours) {
+TEST(ReadObj, ReadsColoursFrom0To1AndFrom0To255) {
   const auto result = read_text("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
   EXPECT_THAT(result.mesh.attributes.colours,
               ElementsAre(Colour{255, 128, 0}, Colour{255, 255, 255}, Colour{0, 0, 255}));
@@ -76,7 +76,8 @@ TEST(ReadObj, SaysThatATextureIsNotCarried) {
       "f 1/1 2/1 3/1\n");
   EXPECT_THAT(
       result.repairs,
-      ElementsAre("material library 'bust.mtl' not carried: it is not beside the mesh file"));
+      ElementsAre("1 material library 'bust.mtl' not carried: it is not beside the mesh file; copy "
+                  "it there, or pack both in one zip"));
 }
 
 TEST(ReadObj, NamesTheLineOfAFault) {

@@ -24,13 +24,13 @@ const std::string kPlain =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\n";
 
-TEST(ReadPly, Ascii) {
+TEST(ReadPly, ReadsAsciiFiles) {
   const auto result = read_text(header("ascii", kPlain) + "0 0 0\n1.5 0 0\n0 -2.25 0\n3 0 1 2\n");
   EXPECT_EQ(result.mesh.positions, kPlyCorners);
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
 }
 
-TEST(ReadPly, BothBinaryByteOrders) {
+TEST(ReadPly, ReadsBothBinaryByteOrders) {
   for (const bool big : {false, true}) {
     const auto result =
         read_text(header(big ? "binary_big_endian" : "binary_little_endian", kPlain) +
@@ -129,7 +129,7 @@ TEST(ReadPly, FacesBeforeVerticesAndPolygons) {
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
 }
 
-TEST(ReadPly, TriangleStrips) {
+TEST(ReadPly, ReadsTriangleStrips) {
   const auto result =
       read_text(header("ascii",
                        "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"

@@ -28,7 +28,8 @@ Json& surface(GlbBuilder& builder) {
 TEST(ReadTexturedGlb, TheTextureIsBakedAndThatIsSaid) {
   const auto result = read_text(textured(red_and_blue()).file());
   EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kBlue, kRed));
-  EXPECT_THAT(result.repairs, ElementsAre("1 texture map baked into vertex colours"));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("1 texture map baked into vertex colours; no step is needed"));
 }
 
 TEST(ReadTexturedGlb, TheSamplerSaysHowThePictureGoesOn) {
@@ -61,7 +62,8 @@ TEST(ReadTexturedGlb, AFactorAloneIsBakedToo) {
   const auto result = read_text(builder.file());
   const Colour orange{255, 188, 0};
   EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(orange, orange, orange));
-  EXPECT_THAT(result.repairs, ElementsAre("material colours baked into vertex colours"));
+  EXPECT_THAT(result.repairs,
+              ElementsAre(HasSubstr("colours of 1 material baked into vertex colours; ")));
 }
 
 TEST(ReadTexturedGlb, VerticesOnASeamAreWeldedToTheMeanOfTheirColours) {
@@ -94,19 +96,20 @@ std::string fault_of(const GlbBuilder& builder) {
 
 TEST(ReadTexturedGlb, APictureThatCannotBeReadIsNamedAndTheMeshStays) {
   EXPECT_EQ(fault_of(textured("P6 1 1 255 ...")),
-            "texture map 0 not carried: it is not PNG, JPEG or WebP; convert it to one of them");
+            "1 texture map, image 0, not carried: it is not PNG, JPEG, WebP, TIFF, BMP or TGA; "
+            "convert it to one of them");
   EXPECT_EQ(fault_of(textured(red_and_blue().substr(0, 50))),
-            "texture map 0 not carried: it is a damaged PNG; export it again");
+            "1 texture map, image 0, not carried: it is a damaged PNG; export it again");
   GlbBuilder outside = textured(red_and_blue());
   outside.document["images"][0] = {{"uri", "skin.png"}};
-  EXPECT_EQ(
-      fault_of(outside),
-      "texture map 0 not carried: it is the file 'skin.png', which is not beside the mesh file; "
-      "copy it there, or export GLB with all in one file");
+  EXPECT_EQ(fault_of(outside),
+            "1 texture map, image 0, not carried: it is the file 'skin.png', which is not beside "
+            "the mesh file; "
+            "copy it there, or pack both in one zip");
 }
 
 TEST(ReadTexturedGlb, APictureInAnUnreadableViewIsNamedWithTheReason) {
-  const std::string fault = "texture map 0 not carried: it cannot be read: glTF buffer ";
+  const std::string fault = "1 texture map, image 0, not carried: it cannot be read: glTF buffer ";
   GlbBuilder beyond = textured(red_and_blue());
   beyond.document["bufferViews"][2]["byteLength"] = 1'000'000;
   EXPECT_EQ(fault_of(beyond), fault +
@@ -117,7 +120,7 @@ TEST(ReadTexturedGlb, APictureInAnUnreadableViewIsNamedWithTheReason) {
   elsewhere.document["bufferViews"][2]["buffer"] = 1;
   EXPECT_EQ(fault_of(elsewhere), fault +
                                      "1 is the file 'skin.bin', which is not beside the mesh "
-                                     "file; copy it there, or export GLB with all in one file");
+                                     "file; copy it there, or pack both in one zip");
 }
 
 // Adds an image stored in buffer view `view`, and a material and a primitive that use the image.
@@ -137,7 +140,7 @@ std::vector<std::string> repairs_within(const GlbBuilder& builder, std::uint64_t
   return result ? result->repairs : std::vector<std::string>();
 }
 
-const std::string kBaked = "1 texture map baked into vertex colours";
+const std::string kBaked = "1 texture map baked into vertex colours; no step is needed";
 
 TEST(ReadTexturedGlb, ADamagedPictureIsDecodedOnceForAllImagesInItsView) {
   const std::string damaged = red_and_blue().substr(0, 50);
@@ -151,8 +154,9 @@ TEST(ReadTexturedGlb, ADamagedPictureIsDecodedOnceForAllImagesInItsView) {
 TEST(ReadTexturedGlb, APictureOfAnExtensionIsToldByItsFormat) {
   GlbBuilder builder = textured("\xABKTX 20\xBB\r\n\x1A\n");
   builder.document["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
-  EXPECT_EQ(fault_of(builder),
-            "texture map 0 not carried: it is image/ktx2; convert it to PNG, JPEG or WebP");
+  EXPECT_EQ(
+      fault_of(builder),
+      "1 texture map, image 0, not carried: it is image/ktx2; convert it to PNG, JPEG or WebP");
 }
 
 TEST(ReadTexturedGlb, AWebpGoesBeforeThePlainPicture) {
@@ -181,7 +185,7 @@ TEST(ReadTexturedGlb, APictureInADataUriIsRead) {
 }
 
 TEST(ReadTexturedGlb, ADataUriThatCannotBeReadIsNamedAndTheMeshStays) {
-  const std::string damaged = "texture map 0 not carried: it is ";
+  const std::string damaged = "1 texture map, image 0, not carried: it is ";
   const std::pair<std::string, std::string> faults[] = {
       {kUri.substr(0, 90), "a damaged PNG; export it again"},
       {kUri.substr(0, 60) + "*", "a data: URI that is not base64; export the file again"},
@@ -194,10 +198,11 @@ TEST(ReadTexturedGlb, ADataUriThatCannotBeReadIsNamedAndTheMeshStays) {
   }
 }
 
-TEST(ReadTexturedGlb, RefusesCoordinatesThatAreMissingOrDoNotMatch) {
+TEST(ReadTexturedGlb, NamesMissingCoordinatesAndRefusesThoseThatDoNotMatch) {
   GlbBuilder missing = textured(red_and_blue());
   surface(missing)["baseColorTexture"]["texCoord"] = 1;
-  EXPECT_THAT(refusal(missing.file()), HasSubstr("TEXCOORD_1"));
+  EXPECT_THAT(read_text(missing.file()).repairs,
+              ::testing::Contains(HasSubstr("1 primitive without the coordinates")));
   GlbBuilder short_by_one = textured(red_and_blue());
   short_by_one.document["accessors"][1]["count"] = 2;
   EXPECT_THAT(refusal(short_by_one.file()), HasSubstr("TEXCOORD_0 does not match POSITION"));

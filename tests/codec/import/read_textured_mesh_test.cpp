@@ -11,6 +11,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using vitrine::testing::as_bytes;
+using vitrine::testing::expect_counts_and_steps;
 using vitrine::testing::kBetween;
 using vitrine::testing::kBlue;
 using vitrine::testing::kRed;
@@ -24,6 +25,7 @@ ImportedMesh read_with(const std::string& text, const std::map<std::string, std:
   for (const auto& [name, contents] : files)
     beside[name] = as_bytes(contents);
   auto result = read_mesh(as_bytes(text), {.beside = beside});
+  if (result) expect_counts_and_steps(result->repairs);
   EXPECT_TRUE(result.has_value());
   return result ? *std::move(result) : ImportedMesh{};
 }
@@ -39,7 +41,8 @@ const std::string kObj =
 TEST(ReadTexturedObj, ThePictureOfTheMaterialIsBaked) {
   const auto result = read_with(kObj, {{"bust.mtl", kLibrary}, {"skin.png", kPicture}});
   EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kRed, kRed, Colour{255, 255, 255}));
-  EXPECT_THAT(result.repairs, ElementsAre("1 texture map baked into vertex colours"));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("1 texture map baked into vertex colours; no step is needed"));
 }
 
 TEST(ReadTexturedObj, AVertexOnASeamTakesTheMeanOfItsCorners) {
@@ -52,7 +55,8 @@ TEST(ReadTexturedObj, AMaterialWithoutPictureGivesItsColour) {
   const auto result =
       read_with(kObj + "usemtl plain\nf 4 2 3\n", {{"bust.mtl", kLibrary}, {"skin.png", kPicture}});
   EXPECT_EQ(result.mesh.attributes.colours[3], (Colour{51, 102, 153}));
-  EXPECT_THAT(result.repairs, Contains("material colours baked into vertex colours"));
+  EXPECT_THAT(result.repairs,
+              Contains(HasSubstr("colours of 1 material baked into vertex colours; ")));
 }
 
 TEST(ReadTexturedObj, MaterialsThatMeetAlongASeamAreWeldedToTheMeanOfTheirColours) {
@@ -95,7 +99,8 @@ TEST(ReadTexturedPly, CoordinatesOfVertices) {
                     "0 0 0 0.25 0\n1 0 0 0.25 1\n0 1 0 0.75 0\n1 1 0 0.5 0\n3 0 1 2\n3 2 1 3\n"),
                 {{"my skin.png", kPicture}});
   EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kRed, kBlue, kBetween));
-  EXPECT_THAT(result.repairs, ElementsAre("1 texture map baked into vertex colours"));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("1 texture map baked into vertex colours; no step is needed"));
 }
 
 TEST(ReadTexturedPly, CoordinatesOfCorners) {

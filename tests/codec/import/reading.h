@@ -12,12 +12,14 @@
 
 #include "codec/import/mesh_builders.h"
 #include "codec/import/read_mesh.h"
+#include "codec/repair/notes.h"
 
 namespace vitrine::testing {
 
 inline ImportedMesh read_text(std::string_view text) {
   auto result = read_mesh(as_bytes(text));
   EXPECT_TRUE(result.has_value()) << result.error().message;
+  if (result) expect_counts_and_steps(result->repairs);
   return result ? *std::move(result) : ImportedMesh{};
 }
 
@@ -28,7 +30,8 @@ inline std::string refusal(std::string_view text) {
   return result ? "" : result.error().message;
 }
 
-// A word that scanners and converters write for an unknown number, with its value as a float.
+// A word that scanners and converters write in place of an unknown number, and the float that it
+// means.
 struct NotFinite {
   const char* text;
   float value;
@@ -37,8 +40,8 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr NotFinite kNotFinite[] = {
     {"nan", std::numeric_limits<float>::quiet_NaN()}, {"inf", kInfinity}, {"-inf", -kInfinity}};
 
-// Expects that the reader has removed the first of four vertices, whose coordinates are not finite
-// and which no face uses.
+// Expects that the reader has removed the first of four vertices. Its coordinates are not finite,
+// and no face uses it.
 inline void expect_first_dropped(const ImportedMesh& imported) {
   EXPECT_EQ(imported.mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_THAT(imported.mesh.faces, ::testing::ElementsAre(Triangle{0, 1, 2}));
@@ -47,8 +50,8 @@ inline void expect_first_dropped(const ImportedMesh& imported) {
       ::testing::Contains(::testing::HasSubstr("1 point without finite coordinates dropped")));
 }
 
-// Expects that the reader refuses the file and names the first vertex, whose coordinates are not
-// finite and which faces use.
+// Expects that the reader refuses the file and names the first vertex. Its coordinates are not
+// finite, but faces use it.
 inline void expect_first_named(std::string_view file) {
   EXPECT_THAT(refusal(file), ::testing::HasSubstr(
                                  "vertex 0 (counted from 0) has a coordinate that is not a finite "

@@ -82,8 +82,8 @@ TEST(Connectivity, ARingThatDoesNotFitIsReportedAsZero) {
   EXPECT_EQ(mesh.ring(0, small), 0u);
 }
 
-// Splits random vertices in random ways. Every state must be valid. Undoing all splits must restore
-// the initial state.
+// Splits random vertices in random ways. The mesh must stay valid after each split. Undoing all
+// splits must restore the initial mesh.
 void expect_splits_undo(Connectivity mesh, unsigned seed) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
@@ -127,7 +127,7 @@ TEST(Connectivity, CollapseIsTheInverseOfSplit) {
   for (VertexId v = 0; v < 30; ++v) {
     const std::uint32_t n = mesh.ring(v, ring);
     mesh.split(v, {ring.data(), n}, 1, 4);
-    mesh.collapse(3 * mesh.face_count() - 3);  // corner of v in the face (v, w, q_j)
+    mesh.collapse(3 * mesh.face_count() - 3);  // the corner at v of the face added last
     expect_valid(mesh);
     EXPECT_EQ(canonical(live_faces(mesh)), before);
   }

@@ -6,7 +6,7 @@
 namespace vitrine {
 namespace {
 
-// Two faces at a right angle. Each has its own vertices at the common edge.
+// Two faces at a right angle. Each face has its own copies of the vertices of the common edge.
 const TriangleMesh kRoof{
     .positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, -1}},
     .faces = {{0, 1, 2}, {3, 4, 5}},

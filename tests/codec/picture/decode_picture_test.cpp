@@ -87,7 +87,7 @@ TEST(DecodePicture, TheTransparentColourOfAPngBecomesOpacity) {
   EXPECT_THAT(pixels_of(png), ElementsAre(1, 2, 3, 255, 4, 5, 6, 0));
 }
 
-// From 8 x 8 pixels on, an interlaced PNG has pixels in each of its passes.
+// An interlaced PNG of at least 8 x 8 pixels has pixels in each of its seven passes.
 TEST(DecodePicture, AnInterlacedPngComesBackExactly) {
   StoredPng png{.type = PNG_COLOR_TYPE_RGBA, .width = 11, .is_interlaced = true};
   std::vector<std::uint8_t> all;
@@ -174,23 +174,32 @@ TEST(DecodePicture, AJpegInCmykBecomesRgb) {
   }
 }
 
+// Half of each coloured ink and no black ink is grey. Read as inverted values, it would be black.
+TEST(DecodePicture, AJpegInCmykWithoutAdobesSegmentIsNotInverted) {
+  std::vector<std::uint8_t> pixels;
+  for (int k = 0; k < 64; ++k)
+    pixels.insert(pixels.end(), {128, 128, 128, 0});
+  std::string bytes = cmyk_jpeg_of(pixels, 8);
+  const std::size_t adobe = bytes.find("\xFF\xEE");
+  ASSERT_NE(adobe, bytes.npos);
+  bytes.erase(adobe, 2 + static_cast<std::size_t>(bytes[adobe + 3]));
+  const auto picture = decode_picture(as_bytes(bytes), Limits{}.pixels);
+  ASSERT_TRUE(picture) << picture.error().message;
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(picture->at(4, 4)[k], 127, 4);
+}
+
 TEST(DecodePicture, NamesOtherFormats) {
-  const std::string tga("\0\0\x02\0\0\0\0\0\0\0\0\0\x02\0\x02\0\x18\0", 18);
-  EXPECT_EQ(fault(tga + std::string(12, 'a')), "is image/x-tga; convert it to PNG, JPEG or WebP");
-  EXPECT_EQ(fault(std::string(40, 'a') + std::string("TRUEVISION-XFILE.\0", 18)),
-            "is image/x-tga; convert it to PNG, JPEG or WebP");
-  EXPECT_EQ(fault("BM" + std::string(60, '\0')), "is image/bmp; convert it to PNG, JPEG or WebP");
   EXPECT_EQ(fault("8BPS" + std::string(60, '\0')),
             "is image/vnd.adobe.photoshop; convert it to PNG, JPEG or WebP");
 }
 
 TEST(DecodePicture, RefusesOtherContentAndDamage) {
-  EXPECT_EQ(fault("P6 1 1 255 ..."), "is not PNG, JPEG or WebP; convert it to one of them");
+  EXPECT_EQ(fault("P6 1 1 255 ..."),
+            "is not PNG, JPEG, WebP, TIFF, BMP or TGA; convert it to one of them");
   EXPECT_EQ(fault("GIF89a"), "is image/gif; convert it to PNG, JPEG or WebP");
-  EXPECT_EQ(fault(std::string("II*\0", 4)), "is image/tiff; convert it to PNG, JPEG or WebP");
-  for (const std::string& big_tiff : {std::string("II+\0\b\0", 6), std::string("MM\0+\0\b", 6)})
-    EXPECT_EQ(fault(big_tiff), "is image/tiff; convert it to PNG, JPEG or WebP");
-  EXPECT_EQ(fault("RIFF....WAVE"), "is not PNG, JPEG or WebP; convert it to one of them");
+  EXPECT_EQ(fault("RIFF....WAVE"),
+            "is not PNG, JPEG, WebP, TIFF, BMP or TGA; convert it to one of them");
   EXPECT_EQ(fault(red_and_blue().substr(0, 40)), "is a damaged PNG; export it again");
   EXPECT_EQ(fault(jpeg_of(std::vector<std::uint8_t>(192, 9), 8).substr(0, 300)),
             "is a damaged JPEG; export it again");

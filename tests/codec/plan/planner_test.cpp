@@ -73,7 +73,8 @@ TEST(Planner, AnErrorIsMetByTheCoarsestLevelBelowIt) {
   EXPECT_EQ(plan(WantError{0}), (Chunks{0, 1, 2, 3, 4}));
 }
 
-// If each step counted all chunks held so far, this test would take minutes.
+// Tests that the work of a step does not grow with the number of chunks held. Otherwise this test
+// would take minutes.
 TEST(Planner, ManyChunksArePlannedOneAfterTheOther) {
   constexpr std::uint32_t kLevels = 300'000;
   Manifest m;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that a camera gets all the chunks that it needs, that these are less than the whole model,
-// and that a different camera gets different chunks.
+// Checks that a camera gets all chunks that it needs, but fewer than the whole model, and that
+// another camera gets other chunks.
 #include "codec/plan/view.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ ModelExtent extent_of(const Manifest& m) {
   return {(low + high) * 0.5, high - low};
 }
 
-// Returns a view along +x (if `sense` is 1) or -x (if -1). It looks at the middle of the model's
-// near side from the distance `distance`.
+// Returns a view along +x (if `sense` is 1) or -x (if `sense` is -1). The camera looks at the
+// middle of the model's near side from `distance` away.
 View along_x(const Manifest& m, double sense, double distance) {
   const ModelExtent extent = extent_of(m);
   const double x = extent.centre.x - sense * (extent.size.x / 2 + distance);
@@ -144,7 +144,8 @@ double depth_in_sight(const Vec3& p, const View& view) {
   return seen ? depth : std::numeric_limits<double>::infinity();
 }
 
-// Returns the smallest depth of those grid points in the box that the view shows.
+// Returns the smallest depth of the grid points in the box, counting only points that the view
+// shows.
 double least_depth(const LatticeBox& box, const View& view) {
   constexpr int kSteps = 40;
   const Vec3 low = to_vec3(box.low), size = to_vec3(box.high) - low;
@@ -175,11 +176,11 @@ TEST(View, ABoxIsAsNearAsWhatIsInSightOfIt) {
     const double slope = std::tan(view.field_of_view / 2 * std::numbers::pi / 180);
     const double depth = kSmall / pixels * view.height / (2 * slope);
     EXPECT_LE(depth, sampled * (1 + kSmall)) << i;
-    // Skips boxes next to the eye, and boxes of which no grid point is visible.
+    // Skips boxes next to the eye, and boxes without a visible grid point.
     if (depth < 2 || sampled > 1e9) continue;
     EXPECT_GT(depth, sampled - 6) << i;  // 6 is four steps of the coarsest grid
     ++seen;
-    // Counts the boxes whose visible part begins well behind the near side of the box.
+    // Counts boxes whose visible part begins well behind the side nearest to the camera.
     beside += sampled > low.x - view.camera[12] + 10 ? 1 : 0;
   }
   EXPECT_GT(seen, 100);
@@ -211,8 +212,8 @@ TEST(View, ABudgetIsNeverExceeded) {
   }
 }
 
-// Returns a manifest of 4 MB in which every region is adjacent to all others. If `behind` is true,
-// half of the regions lie behind a camera that looks along x.
+// Returns a manifest of 4 MB in which every region is adjacent to all other regions. If `behind` is
+// true, half of the regions lie behind a camera that looks along x.
 Manifest crowded_header(std::uint32_t regions, bool behind) {
   Manifest m;
   for (int level = 0; level < 40; ++level)
@@ -238,7 +239,7 @@ Manifest crowded_header(std::uint32_t regions, bool behind) {
   return m;
 }
 
-// Plans only one chunk. A whole plan would take minutes, because half of the regions require the
+// Plans only one chunk. A whole plan would take minutes, because half of the regions depend on the
 // other half.
 TEST(View, AHostileHeaderIsPlannedInBoundedSteps) {
   constexpr std::uint32_t kRegions = 2'000;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes small files that are truncated after each byte, or have a byte changed. The hash of the
-// header is corrected, and all other hashes are not checked. The result must be an error or a valid
-// mesh. The memory used must stay within a multiple of the file's size.
+// Decodes small files that are truncated after each byte, or in which a byte is changed. The
+// header's hash is corrected, and no other hash is checked, so that the decoder sees the damage.
+// The result must be an error or a valid mesh. The memory used must stay within a multiple of the
+// file's size.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,8 +25,8 @@ namespace {
 using test::StoredModel;
 using Bytes = std::span<const std::uint8_t>;
 
-// Number of different changes tried per byte. Adjacent bytes start with different changes. One
-// change per byte is therefore enough in builds with sanitizers, which are slow.
+// Number of different changes tried per byte. Adjacent bytes start with different changes, so one
+// change per byte is enough in slow builds with sanitizers.
 #ifdef VITRINE_SANITISED
 constexpr std::size_t kFlipsPerByte = 1;
 #else
@@ -58,7 +59,7 @@ bool is_manifold(const Refiner& refiner) {
          Connectivity::close(refiner.vertex_count(), mesh.faces).has_value();
 }
 
-// Decodes as many chunks as possible. Returns whether every state was a valid mesh.
+// Decodes as many chunks as possible. Returns whether the mesh was valid after each chunk.
 bool survives(Bytes bytes) {
   auto manifest = parse_header(bytes);
   if (!manifest) return true;
@@ -134,9 +135,10 @@ TEST_P(HostileBytes, ChunksOfNoise) {
 INSTANTIATE_TEST_SUITE_P(Placements, HostileBytes,
                          ::testing::Values(Placement::kMidpoint, Placement::kPyramid));
 
-// Left out in builds with sanitizers: large models take minutes there, and memory use is the same.
+// Builds with sanitizers omit these tests. Large models take minutes there, and memory use is the
+// same.
 #ifndef VITRINE_SANITISED
-// refiner.h states the bounds that are tested.
+// The bounds are those that refiner.h states.
 TEST(RefinerMemory, StaysWithinItsBytesPerTriangle) {
   for (const bool coloured : {false, true}) {
     const std::size_t bytes = coloured ? 64 : 60;
@@ -157,8 +159,8 @@ TEST(RefinerMemory, StaysWithinItsBytesPerTriangle) {
   }
 }
 
-// A split adds one vertex and six corners. A vertex has one element in each of four arrays, a
-// corner one in each of two.
+// A split adds one vertex and six corners. Each vertex has an element in four arrays, and each
+// corner has an element in two arrays.
 constexpr std::size_t kArrayElementsPerSplit = 4 + 2 * 6;
 
 TEST(RefinerMemory, IsAskedForByTheBlockAndNotByTheSplit) {
@@ -207,7 +209,7 @@ Manifest crowded_header(std::uint32_t leaves, std::size_t levels, bool neighbour
   return m;
 }
 
-// A header can state far more adjacent regions and chunks than there are vertices.
+// A header can state far more regions, adjacencies and chunks than the mesh has vertices.
 TEST(RefinerMemory, FollowsTheBytesOfAHostileHeader) {
   const BaseMesh base{.positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}},
                       .faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
@@ -230,7 +232,7 @@ TEST(RefinerMemory, FollowsTheBytesOfAHostileHeader) {
   }
 }
 
-// Decodes the model while the allocation number `allocation` fails. Returns false if that failure
+// Decodes the model and lets allocation number `allocation` fail. Returns false if that failure
 // ended the decoding.
 bool decodes_with_failure_at(std::size_t allocation, const StoredModel& model) {
   test::fail_allocation(allocation);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr Colour kRed = {200, 20, 20}, kGreen = {20, 200, 20};
 
-// Adds a square whose centre is on the z axis. It is perpendicular to the axis and faces +z.
+// Adds a square whose centre is on the z axis. The square is perpendicular to the axis and faces
+// +z.
 void add_square(TriangleMesh& mesh, double half, double z, const Colour& colour) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& p : {Vec3{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}})

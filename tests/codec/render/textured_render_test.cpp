@@ -93,8 +93,8 @@ TEST(TexturedRender, ACheckerboardSeenFromFarIsEvenGrey) {
   }
 }
 
-// Returns the brightness of a lit white square. All pixels of its normal map have the colour
-// `normal`.
+// Returns the brightness of a lit white square with a normal map. All pixels of the map have the
+// colour `normal`.
 int brightness(TexturedSquare square, const std::array<std::uint8_t, 4>& normal) {
   square.pictures = {plain_picture(normal)};
   square.material().is_unlit = false;
@@ -169,8 +169,7 @@ TEST(TexturedRender, AnOpaqueMaterialIgnoresTheOpacityOfItsPicture) {
   EXPECT_EQ(pixel_of(square.seen(8), 3, 3), kPureRed);
 }
 
-// White is a material's default colour, so it says no more about the surface than a missing
-// material.
+// White is a material's default colour. A white material must therefore look like no material.
 TEST(TexturedRender, AWhiteMaterialLooksLikeNoMaterial) {
   TexturedSquare square;
   square.material().is_unlit = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A square with one picture. It is seen from the front, so that the picture fills the view.
+// A square with one picture, seen from the front. The square fills the view.
 #pragma once
 
 #include <functional>

@@ -39,7 +39,8 @@ Polygon star(int corners) {
   return numbered(polygon);
 }
 
-// A band that winds around the centre ten times: outwards on one side, and back on the other.
+// A band that winds around the centre ten times. Its outline runs outwards along one side of the
+// band, and back along the other.
 Polygon spiral(int corners) {
   Polygon polygon;
   const int half = corners / 2;
@@ -58,7 +59,8 @@ Polygon comb(int corners) {
   return numbered(polygon);
 }
 
-// A coastline: radii that are the sum of waves with random phases. `seed` chooses them.
+// Returns a polygon like a coastline: its radii are the sum of waves with random phases, which
+// depend on `seed`.
 Polygon coast(int corners, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);

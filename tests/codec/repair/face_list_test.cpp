@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 constexpr TextureCoordinates kA{1, 2}, kB{3, 4}, kC{5, 6}, kD{7, 8}, kNone{0, 0};
 using CornerCoordinates = std::array<TextureCoordinates, 3>;
 
-// The corners of a square. The last point serves to give the square a dent.
+// The corners of a square, and a point inside it that gives a polygon a dent.
 const std::vector<Vec3> kPositions{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {3, 2, 0}};
 
 TEST(FaceList, PolygonsFollowTheTrianglesWithTheirMaterials) {
@@ -51,8 +51,8 @@ TEST(FaceList, CoordinatesFollowTheCornersOfAFan) {
               ElementsAre(CornerCoordinates{kA, kB, kC}, CornerCoordinates{kA, kC, kD}));
 }
 
-// The polygon is concave, so its ears are clipped. Vertex 0 occurs twice, with different texture
-// coordinates.
+// The polygon is concave, so it is cut by ear clipping. Vertex 0 occurs twice, with different
+// texture coordinates.
 TEST(FaceList, CoordinatesFollowTheCornersOfClippedEarsEvenIfAVertexRepeats) {
   const std::vector<Vec3> positions{{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}, {1, 3, 0}};
   const std::vector<std::uint32_t> polygon{0, 1, 2, 3, 0, 4};

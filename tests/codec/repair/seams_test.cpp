@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repairs files that repeat vertices along seams but do not mark the seams.
+// Tests the repair of files that repeat vertices along seams but do not mark the seams.
 #include <algorithm>
 #include <random>
 
@@ -33,7 +33,8 @@ TEST(Seams, AnObjWithoutNormalsOrTexturesIsClosed) {
   EXPECT_EQ(result.mesh.positions.size(), 4u);
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 2, 1}, Triangle{0, 1, 3},
                                              Triangle{1, 2, 3}, Triangle{0, 3, 2}));
-  EXPECT_THAT(result.repairs, ElementsAre("4 repeated vertices welded along matching borders"));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("4 repeated vertices welded along matching borders; no step is needed"));
 }
 
 TEST(Seams, OffAndPlyFollowTheSameRule) {
@@ -59,7 +60,8 @@ TEST(Seams, ASlitInASheetIsClosed) {
       "f 1 2 5\nf 6 3 5\nf 3 4 5\nf 4 1 5\n");
   EXPECT_EQ(result.boundary_edges, 4u);
   EXPECT_EQ(result.mesh.positions.size(), 5u);
-  EXPECT_THAT(result.repairs, ElementsAre("1 repeated vertex welded along matching borders"));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("1 repeated vertex welded along matching borders; no step is needed"));
 }
 
 TEST(Seams, ASideThatRunsTheWrongWayIsWeldedAndTurned) {
@@ -88,8 +90,8 @@ TEST(Seams, SidesOfEqualColoursAreWelded) {
                                                           Colour{255, 0, 0}, Colour{0, 0, 255}));
 }
 
-// A tetrahedron at the origin and its mirror image, as OBJ. Each has its own vertices. The two
-// touch in a point in the first file, along an edge in the second.
+// A tetrahedron at the origin and its mirror image, as OBJ. Each has its own vertices. In the first
+// file, the two touch at a point; in the second, along an edge.
 constexpr char kTouchingAtAPoint[] =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n"
     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 5 6 7\nf 5 8 6\nf 6 8 7\nf 7 8 5\n";

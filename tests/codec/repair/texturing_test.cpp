@@ -32,9 +32,9 @@ Material mapped(std::uint8_t set) {
   return {.base_colour_map = TextureMap{.coordinates = set}};
 }
 
-// Builds random meshes that need every kind of repair. Texture coordinates identify their corner.
-// The first one is the code of the corner's position. The second one is the number of the face in
-// set 0, and the number of the vertex in set 1.
+// Builds random meshes that need every kind of repair. Texture coordinates identify their corner: u
+// is the code of the corner's position. In set 0, v is the number of the face; in set 1, v is the
+// number of the vertex.
 class RandomMesh {
  public:
   explicit RandomMesh(std::uint32_t seed) : random_(seed) {}
@@ -59,8 +59,8 @@ class RandomMesh {
   int below(int n) { return static_cast<int>(random_() % static_cast<std::uint32_t>(n)); }
   bool chance(int n) { return below(n) == 0; }
 
-  // Returns a vertex at this position: an existing one, or a copy as on the border of a texture
-  // chart.
+  // Returns a vertex at this position. It is an existing vertex, or a copy as on the border of a
+  // texture chart.
   std::uint32_t point(int x, int y, int z) {
     auto& there = vertices_[static_cast<std::size_t>(x + 16 * y + 256 * z)];
     if (!there.empty() && !chance(4))
@@ -101,7 +101,7 @@ class RandomMesh {
   std::array<std::vector<std::uint32_t>, 1024> vertices_;
 };
 
-// Checks every face by the numbers that RandomMesh stored in the texture coordinates.
+// Checks every face by the numbers that RandomMesh has stored in the texture coordinates.
 void expect_corners_kept(const TriangleMesh& mesh, const Texturing& texturing) {
   ASSERT_EQ(texturing.face_materials.size(), mesh.faces.size());
   for (const auto& set : texturing.coordinates)

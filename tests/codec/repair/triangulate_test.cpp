@@ -56,7 +56,8 @@ TEST(Triangulate, APolygonOfOnePointOrOneLineStillGivesAllItsTriangles) {
   EXPECT_EQ(cut({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {2, 0, 0}}).size(), 2u);
 }
 
-// Readers report such a position once they know which faces use it.
+// Triangulation accepts such positions. Readers report them later, when they know which faces use
+// them.
 TEST(Triangulate, APolygonWithAPositionThatIsNotFiniteStillGivesAllItsTriangles) {
   std::vector<Vec3> positions(300);
   for (std::size_t i = 0; i < positions.size(); ++i)

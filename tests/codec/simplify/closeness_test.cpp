@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares keeps_near() with measured distances between a bumpy sheet before and after each
-// collapse.
+// Tests keeps_near() for each edge of a bumpy sheet. Its result must agree with the measured
+// distances between the surfaces before and after the edge's collapse.
 #include "codec/simplify/closeness.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace vitrine::test {
 namespace {
 
-constexpr double kReach = 12.3;  // lattice units; no distance in the tests is exactly this
+constexpr double kReach = 12.3;  // in lattice units; no distance in the tests is exactly this long
 
 // Returns a sheet with bumps. `height` is the height of the bumps, in edge lengths.
 Surface bumpy_sheet(double height) {
@@ -114,7 +114,8 @@ TEST(Closeness, ComparesTheSurfacesBeforeAndAfter) {
   EXPECT_GT(count.far_middles, 10u);
 }
 
-// The bumps are about as high as kReach. Some patches therefore fit into a slab, and others do not.
+// The bumps are about as high as kReach. Some patches therefore fit into a slab of this thickness,
+// and others do not.
 TEST(Closeness, ComparesFlatSurfacesToo) {
   const DistanceCounts count = compare_all(bumpy_sheet(0.3));
   EXPECT_GT(count.near, 100u);

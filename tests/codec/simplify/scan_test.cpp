@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simplifies a scan of a bust and checks the stated errors.
+// Simplifies a scan of a bust, and checks the geometric errors that the result states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,7 +87,7 @@ TEST(ErrorMeter, BoundIsTrueAndTightOnAScan) {
 
 TEST(Simplify, FollowsTheSurfaceAsItWasBeforeRounding) {
   const TriangleMesh scan = shipped_model("demosthenes.obj");
-  // With 8 bits, edges are only a few lattice steps long.
+  // With positions of 8 bits, edges are only a few lattice steps long.
   const LatticeMesh fine = quantise(scan, fit_lattice(scan.positions, 8));
   const auto half = static_cast<std::uint32_t>(fine.positions.size() / 2);
   const auto rms = [&](std::span<const Vec3> original) {

@@ -32,7 +32,8 @@ class Replay {
     link();
   }
 
-  // Performs the collapses of a level. Level 1 is the coarsest that has collapses, as in Hierarchy.
+  // Performs the collapses of a level. As in Hierarchy, level 1 is the coarsest level with
+  // collapses.
   void collapse_level(std::uint32_t level) {
     std::set<VertexId> ends;
     const Vec3i* last = nullptr;
@@ -83,8 +84,8 @@ class Replay {
     }
   }
 
-  // Removes a component that the level inserts. The record must contain the whole component in its
-  // current state.
+  // Removes a component that the level inserts. `component` must contain all its faces, with their
+  // current positions.
   void take_out(const Component& component, std::uint32_t level) {
     const std::set<VertexId> ids(component.ids.begin(), component.ids.end());
     std::vector<Triangle> recorded, found;
@@ -109,8 +110,8 @@ class Replay {
     link();
   }
 
-  // Rounds the vertices to a coarser lattice. The record must hold the lost bits of every remaining
-  // vertex.
+  // Rounds the vertices to a coarser lattice. Expects that the hierarchy holds the lost bits of
+  // every remaining vertex.
   void coarsen_lattice(std::uint32_t level) {
     const std::uint32_t bits = hierarchy_.shift[level - 1] - hierarchy_.shift[level];
     const auto& refined = hierarchy_.refined[level - 1];
@@ -199,7 +200,7 @@ class Replay {
   std::vector<Vec3i> positions_;
   std::vector<std::set<VertexId>> neighbours_;
   std::vector<std::vector<std::size_t>> faces_at_;
-  std::uint32_t loops_;  // number of boundary loops of the components left
+  std::uint32_t loops_;  // number of boundary loops of the remaining components
 };
 
 struct SimplifyCase {
@@ -320,7 +321,8 @@ TEST(Simplify, TakesMidpointsThatRoundOntoTheSurface) {
   for (Vec3& p : plane.positions)
     p = {p.x * 7.3, p.y * 7.7, (p.x * 7.3 + p.y * 7.7) / 3};
   const LatticeMesh fine = quantise(plane, {.origin = {}, .step = 1, .bits = 12});
-  // 1,800 vertices take one level and 1,200 take two, so both parities are tested.
+  // Midpoints are rounded differently at levels of even and odd number. 1,800 vertices take one
+  // level and 1,200 take two, so both cases are tested.
   for (const std::uint32_t vertices : {1800u, 1200u}) {
     const auto hierarchy = simplify(fine, {.target_vertices = vertices}, plane.positions);
     EXPECT_LT(off_plane(hierarchy.value().base), 0.9 * off_plane(fine)) << vertices;
@@ -337,7 +339,7 @@ Surface surface_of(const LatticeMesh& fine) {
   return surface;
 }
 
-// Returns the cost of collapsing the edge to `target` in the finest level.
+// Returns the cost of collapsing the edge to `target`, for an edge of the finest level.
 double cost_of(const Surface& surface, const EdgeStar& edge, const Vec3i& target) {
   const Vec3 at = to_vec3(target);
   return surface.quadric[edge.v1].at(at) + surface.quadric[edge.v2].at(at);

@@ -31,8 +31,8 @@ TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
     EXPECT_LE(width(component.mesh.positions), width(hierarchy->base.positions));
 }
 
-// The torus with seven vertices, each adjacent to all others, is the smallest torus. Like every
-// torus, it has two faces per vertex. An inserted component may not have more faces per vertex.
+// The smallest torus has seven vertices, all adjacent to each other. Like every torus, it has two
+// faces per vertex, the largest number allowed for an inserted component.
 TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
   LatticeMesh mesh = on_lattice(sheet(30, 30));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows models with and without a texture, as a browser does.
+// Opens and refines models with and without a texture, as the browser's viewer does.
 #include "codec/wasm/browser_model.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kTriangles = 0, kLevel = 3;  // values of the argument `kind` of want()
 
-// All data of the surface that a page receives.
+// The surface as a page receives it.
 struct Shown {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<std::int16_t, 4>> normals;
@@ -61,7 +61,7 @@ class BrowserModelTest : public ::testing::Test {
     return part(texture.atlas_offset, texture.atlas_length);
   }
 
-  // Applies the chunks for a detail request. Calls `applied` after each.
+  // Applies the chunks for a detail request. Calls `applied` after each chunk.
   template <class Applied>
   void reach(std::uint32_t kind, double value, const Applied& applied) {
     ASSERT_TRUE(model_->want(kind, value));
@@ -77,8 +77,8 @@ class BrowserModelTest : public ::testing::Test {
     reach(kind, value, [] {});
   }
 
-  // Expects that each displayed corner has the position and the texture coordinates of its corner
-  // in the mesh.
+  // Expects that each displayed corner has the position and the texture coordinates of the same
+  // corner in the mesh.
   void expect_corners_of_mesh() {
     const Shown surface = shown(*model_);
     const Refiner& refiner = model_->refiner();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads hostile atlases of small base meshes. The first byte chooses the mesh, the others are the
-// atlas. An atlas that is accepted must encode to bytes that decode to the same atlas.
+// Reads hostile atlases (coded texture coordinates) of small base meshes. The first byte chooses
+// the mesh, the other bytes are the atlas. An atlas that is accepted must encode to bytes that
+// decode to the same atlas.
 #include "../checks.h"
 #include "codec/coding/atlas_coder.h"
 #include "codec/coding/wedges.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads hostile base meshes. The model has the counts that the Draco buffer states. If the buffer
-// holds a valid mesh, the Draco library must read the same mesh from it.
+// Reads hostile base meshes. The model has the numbers of vertices and faces that the Draco buffer
+// states. If the buffer holds a valid mesh, the Draco library must read the same mesh from it.
 #include <vector>
 
 #include "../bounded.h"
@@ -15,7 +15,7 @@ namespace {
 
 using fuzz::require;
 
-constexpr std::size_t kCounts = 12;  // position of the counts in a Draco buffer
+constexpr std::size_t kCounts = 12;  // position of the numbers of vertices and faces in the buffer
 
 Manifest stated_counts(std::span<const std::uint8_t> bytes) {
   ByteReader in(bytes);

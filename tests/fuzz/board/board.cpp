@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes arbitrary bytes to the code that reads a motor board's output: the packet format of each
-// USB serial chip, and the parsers of Horus and FabScanPi answers.
+// Passes arbitrary bytes to the code that reads a motor board's output. This is the code for the
+// packet format of each USB serial chip, and the parsers of Horus and FabScanPi answers.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

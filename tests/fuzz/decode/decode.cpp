@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the header's reader, the reader of the atlas, the planner and the refiner on hostile bytes,
-// as `vitrine decode` does. The hash of the header is corrected and all other hashes are ignored.
-// Otherwise mutated bytes would be refused because of their hashes.
+// as `vitrine decode` does. Corrects the hash of the header and ignores all other hashes, because
+// they would make the decoder refuse mutated bytes.
 #include <optional>
 
 #include "../bounded.h"
@@ -21,7 +21,8 @@ using fuzz::require;
 
 constexpr Limits kLimits = {.vertices = 20'000, .faces = 40'000};
 
-// Checks that every corner of a face has a wedge of its vertex, if the model has a texture.
+// If the model has a texture, checks that every corner of a face has a wedge of the corner's
+// vertex.
 void check_wedges(const Refiner& refiner) {
   const Wedges& wedges = refiner.wedges();
   if (wedges.empty()) return;

@@ -34,8 +34,9 @@ void check_unpacked(std::span<const std::uint8_t> bytes) {
 void check_model(std::span<const std::uint8_t> bytes) {
   const auto model = vitrine::PackagedModel::open(bytes);
   if (!model) return require(model.error().message.find('\n') == std::string::npos);
-  for (const auto& [key, companion] : model->beside())
-    require(key == vitrine::companion_key(key));
+  const auto beside = model->beside();
+  for (const auto& [key, companion] : beside)
+    require(vitrine::find_companion(beside, {vitrine::companion_path(key)}).has_value());
 }
 
 }  // namespace

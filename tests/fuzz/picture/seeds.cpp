@@ -2,6 +2,7 @@
 // fuzz_picture_seeds FOLDER: writes a seed of each picture format for the picture fuzzer.
 #include <fstream>
 
+#include "codec/picture/bitmaps.h"
 #include "codec/picture/pictures.h"
 
 int main(int argc, char** argv) {
@@ -14,7 +15,10 @@ int main(int argc, char** argv) {
   const std::pair<const char*, std::string> seeds[] = {{"png", png_of(pixels, 16)},
                                                        {"jpeg", jpeg_of(pixels, 16)},
                                                        {"webp_lossless", webp_of(pixels, 16)},
-                                                       {"webp_lossy", lossy_webp_of(pixels, 16)}};
+                                                       {"webp_lossy", lossy_webp_of(pixels, 16)},
+                                                       {"bmp", bmp_of(pixels, 16)},
+                                                       {"tga", tga_of(pixels, 16)},
+                                                       {"tiff", tiff_of(pixels)}};
   for (const auto& [name, bytes] : seeds)
     std::ofstream(std::string(argv[1]) + '/' + name, std::ios::binary) << bytes;
   return 0;

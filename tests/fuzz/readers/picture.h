@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture to which a fuzzed OBJ or PLY file can refer. A GLB file contains its pictures, so that
-// fuzzer mutates them.
+// A picture to which a fuzzed OBJ or PLY file can refer. A GLB file contains its own pictures, so
+// the fuzzer of GLB mutates them.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces Draco, which is not safe on hostile bytes and is not fuzzed here. The first byte of the
-// data is the number of faces. The faces' corners follow, one byte each. The values of every
-// attribute are all remaining bytes.
+// data is the number of faces. The faces' corners follow, one byte each. Every attribute has all
+// remaining bytes as its values.
 #include "codec/gltf/draco_primitive.h"
 
 namespace vitrine::inline codec {

@@ -3,7 +3,7 @@
 #include "fuzz/readers/reader.h"
 
 // Reads the input as the model part of a 3MF file. It can refer to the part "o.model", which is the
-// input itself. pugixml allocates with malloc(), which the bound does not count.
+// input itself. The memory bound does not include pugixml, which allocates with malloc().
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return vitrine::fuzz::check(
       {data, size}, vitrine::test::kReadingGlbHeap,

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "codec/import/readers.h"
-#include "codec/import/unit_comment.h"
 #include "codec/mesh/connectivity.h"
 #include "codec/mesh/unit.h"
 #include "codec/repair/raw_mesh.h"

@@ -72,7 +72,7 @@ void serve(std::string_view text) {
     const auto again = parse_message(to_json(*message));
     check(again.has_value() && to_json(*again) == to_json(*message));
     if (const auto* open = std::get_if<OpenMessage>(&*message)) {
-      (void)state.open(open->model, manifest, open->head);
+      (void)state.open(open->model, manifest, open->wants_head);
     } else {
       (void)state.receive(*message, now);
     }

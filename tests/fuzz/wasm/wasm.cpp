@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the browser's model class on hostile bytes, with the calls that a page makes. The seeds are
 // those of the decode fuzzer. Their base mesh is raw instead of a Draco buffer, so that most
-// mutations reach the layers; the base fuzzer reads such buffers. The hash of the header is
+// mutations reach the layers; the base fuzzer reads Draco buffers. The hash of the header is
 // corrected, and other hashes are ignored. The last bytes of the input also determine a detail
 // request.
 #include <algorithm>

@@ -116,7 +116,7 @@ TEST_F(AuthoriseTest, ARevokedTokenIsWorthlessAtOnce) {
   const std::string field = "Authorization: Bearer " + token.text + "\r\n";
   EXPECT_EQ(get("/viewer", field).status, 200);
   ASSERT_TRUE(server_.catalogue().revoke_token(token.id));
-  server_.services().tokens.forget();  // the route that revokes a token does the same
+  server_.services().tokens.forget();  // the route that revokes a token also empties this cache
   EXPECT_EQ(get("/viewer", field).status, 401);
   EXPECT_EQ(get("/none", field).status, 401) << "a caller with a wrong token gets an error";
 }
@@ -140,7 +140,7 @@ TEST_F(AuthoriseTest, EveryCallThatIsToChangeSomethingIsAudited) {
   const HttpAnswer done = client.get("/operator/rig-1", field, "POST");
   const HttpAnswer low = client.get("/admin", field, "DELETE");
   const HttpAnswer nobody = client.get("/admin", "", "DELETE");
-  client.get("/viewer", field);  // once this request is answered, the log holds the earlier ones
+  client.get("/viewer", field);  // once this request is answered, all earlier ones are logged
   client.get("/viewer", field);
   const std::string id = token.id.to_string(), log = server_.events();
   EXPECT_THAT(log, HasSubstr("event=audit id=" + done.field("x-request-id") +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests request bodies over a real connection: size limits, deadlines, and where the next request
-// starts.
+// Tests request bodies over a real connection: size limits, deadlines, and where the server expects
+// the next request.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -98,7 +98,7 @@ TEST_F(BodyTest, WhatIsTooLargeOrMalformedEndsTheConnection) {
   }
 }
 
-// The bytes of a body that no handler takes must never be parsed as the next request.
+// The bytes of a body that no handler reads must never be parsed as the next request.
 TEST_F(BodyTest, OneThatNobodyTakesEndsTheConnectionUnread) {
   const std::string length = "Content-Length: " + std::to_string(kHidden.size()) + "\r\n";
   const std::pair<std::string, int> cases[] = {

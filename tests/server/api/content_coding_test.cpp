@@ -100,7 +100,7 @@ TEST(Gzip, HoldsTheBytesWithoutSpareMemory) {
   }
 }
 
-// The response that a handler makes, and whether in_accepted_coding() compresses it.
+// Tests which handlers' responses in_accepted_coding() compresses.
 class AcceptedCoding : public testing::Test {
  protected:
   static constexpr std::size_t kMost = 10'000;
@@ -156,8 +156,8 @@ TEST_F(AcceptedCoding, OnlySuccessfulPublicResponsesAreCompressed) {
   EXPECT_FALSE(is_compressed(json_of(2'000)));
 }
 
-// Returns a JSON text that is a byte larger than the largest text that a thread serving connections
-// compresses.
+// Returns a JSON text that is one byte too long to be compressed by the thread that serves
+// connections. Only a worker may compress it.
 Response show_large(const Request&, Services&) {
   return revalidated("application/json", std::string(64 * 1024 + 1, ' '));
 }
@@ -222,7 +222,8 @@ TEST_F(PackedJson, IsNotSentToClientsThatDoNotTakeIt) {
     EXPECT_EQ(get("Accept-Encoding: " + list + "\r\n").body, plain) << list;
   for (const std::string list : {"*", "identity;q=0, gzip", "br, gzip;q=0.1"})
     EXPECT_EQ(get("Accept-Encoding: " + list + "\r\n").field("content-encoding"), "gzip") << list;
-  // RFC 9110, section 12.1, lets a server answer although no form is acceptable.
+  // RFC 9110, section 12.1, allows a server to send a response in a form that the client does not
+  // accept.
   const auto refuses_all = get("Accept-Encoding: identity;q=0\r\n");
   EXPECT_EQ(refuses_all.status, 200);
   EXPECT_EQ(refuses_all.body, plain);

@@ -22,7 +22,7 @@ DetailRequest request_of(std::string_view query, const char* save_data = nullptr
 
 TEST(DetailRequest, WithoutAWordItIsTheWhole) {
   EXPECT_EQ(std::get<WantLevel>(request_of("").want).level, 2u);
-  EXPECT_FALSE(request_of("").stated);
+  EXPECT_FALSE(request_of("").is_stated);
   EXPECT_EQ(std::get<WantLevel>(request_of("", "off").want).level, 2u);
 }
 

@@ -16,14 +16,15 @@ using test::HttpAnswer;
 using test::HttpClient;
 using test::LocalServer;
 
-std::counting_semaphore<8> released{0};  // released once for each source that is destroyed
+std::counting_semaphore<8> released{0};  // each source releases it once when it is destroyed
 
 class Source : public EventSource {
  public:
   ~Source() override { released.release(); }
 };
 
-// Returns three events, with nullopt between them, and then ends.
+// A source of three events. next() returns nullopt before each event except the first. The source
+// ends after the third event.
 class Countdown final : public Source {
  public:
   std::optional<Event> next() override {
@@ -161,6 +162,22 @@ TEST_F(EventStream, ATokenThatIsRevokedEndsIt) {
   EXPECT_TRUE(client.is_closed());
   server.drain();
   EXPECT_TRUE(other.is_closed());
+}
+
+TEST_F(EventStream, BehindAProxyItCountsForItsVisitor) {
+  LocalServer server(
+      kEventRoutes, std::chrono::seconds(30), {},
+      {.max_connections_per_address = 1, .proxies = Networks::parse("127.0.0.1").value()});
+  const auto ask = [&](HttpClient& client, const std::string& visitor) {
+    client.send("GET /silence HTTP/1.1\r\nHost: a\r\nX-Forwarded-For: " + visitor + "\r\n\r\n");
+    return client.receive();
+  };
+  HttpClient first(server.port()), second(server.port()), of_another(server.port());
+  EXPECT_EQ(ask(first, "2001:db8::1").status, 200);
+  const HttpAnswer refused = ask(second, "2001:db8::2");
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_EQ(refused.field("retry-after"), "5");
+  EXPECT_EQ(ask(of_another, "2001:db8:0:1::1").status, 200);
 }
 
 TEST_F(EventStream, ADaemonThatStopsEndsIt) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests what exports say about themselves, and their unit and axes.
+// Tests the descriptions, units, axes and compression of exported files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ TEST_F(ExportsApi, HaveTheUnitAndTheAxisOfTheFormatOrOfTheQuery) {
   EXPECT_NEAR(asked.high.y, box.high.y, 1e-6);
   const Bounds turned = bounds_in(ask(path_ + "ply?unit=cm&up=z").body);
   EXPECT_NEAR(turned.high.z, box.high.y * 100, 1e-4);
-  const Bounds printed = bounds_in(ask(path_ + "3mf").body);  // its reader turns it to y up
+  const Bounds printed = bounds_in(ask(path_ + "3mf").body);  // the reader turns z up to y up
   EXPECT_NEAR(printed.high.y, box.high.y * 1000, 1e-3);
   EXPECT_THAT(ask(path_ + "usdz").body, HasSubstr("metersPerUnit = 1\n"));
 }
@@ -163,7 +163,7 @@ TEST_F(ExportsApi, ATextIsCompressedOnce) {
   const auto made = cache.made.load();
   EXPECT_EQ(ask(path_ + "obj", gzip).body, first.body);
   EXPECT_EQ(cache.made, made);
-  EXPECT_EQ(cache.bytes(), first.body.size());  // the text itself is not kept
+  EXPECT_EQ(cache.bytes(), first.body.size());  // the uncompressed text is not cached
 }
 
 TEST_F(ExportsApi, AGlbIsCompressedOnRequest) {

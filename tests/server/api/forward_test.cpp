@@ -11,7 +11,7 @@
 
 #include "codec/files/file_descriptor.h"
 #include "server/api/routes.h"
-#include "server/catalogue/sqlite_jobs.h"
+#include "server/catalogue/sqlite_catalogue.h"
 #include "support/fake_backend.h"
 #include "support/local_server.h"
 #include "support/process/http_client.h"
@@ -50,7 +50,7 @@ class PassedOn : public testing::Test {
     return client.receive();
   }
 
-  // Begins a scan that is in the catalogues of both daemons. Returns its id.
+  // Begins a scan and adds it to the catalogues of both daemons. Returns its id.
   std::string new_scan() {
     const auto begun = ask("POST", "/scans", operator_, R"({"scanner": "rig", "steps": 12})");
     const auto id = json::parse(begun.body)["id"].get<std::string>();
@@ -93,7 +93,8 @@ TEST_F(PassedOn, NoProxyOfTheEnvironmentIsAsked) {
   EXPECT_EQ(answer.status, 200) << answer.body;
 }
 
-// Neither daemon answers until both have been asked, so the requests must be concurrent.
+// Neither of the other daemons answers until both have been asked, so the front daemon must ask
+// them concurrently.
 TEST_F(PassedOn, ListsAskAllDaemonsAtOnce) {
   test::WebhookListener left, right;
   for (const auto& [name, daemon] : {std::pair("left", &left), std::pair("right", &right)})
@@ -235,8 +236,8 @@ class Hung {
   Hung() {
     sockaddr_in any{.sin_family = AF_INET, .sin_addr = {htonl(INADDR_LOOPBACK)}};
     socklen_t size = sizeof any;
-    const timeval patience{.tv_sec = 20, .tv_usec = 0};
-    ::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const timeval timeout{.tv_sec = 20, .tv_usec = 0};
+    ::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<sockaddr*>(&any), size), 0);
     EXPECT_EQ(::listen(socket_.get(), SOMAXCONN), 0);
     EXPECT_EQ(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&any), &size), 0);
@@ -256,7 +257,7 @@ class Hung {
 };
 
 // Requests that wait for a hung daemon must not occupy all workers of the forwarding daemon.
-// Otherwise the watchdog would kill the forwarding daemon.
+// Otherwise the watchdog would kill the forwarding daemon, too.
 TEST_F(PassedOn, WhoWaitsForADaemonThatHangsLeavesWorkersForTheOthers) {
   const std::string scan = "/scans/" + new_scan();
   Hung hung;

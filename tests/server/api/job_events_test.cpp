@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the events of jobs that end while a client subscribes to these events.
+// Tests the event streams of jobs: they report the job's end, even if it ends while a client
+// subscribes. A visitor's stream also ends when the job's model is withdrawn.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "server/api/handlers.h"
 #include "server/api/routes.h"
 #include "server/messages/event_source.h"
+#include "support/fake_backend.h"
 #include "support/local_server.h"
 #include "support/process/http_client.h"
 #include "support/product_names.h"
@@ -14,7 +16,7 @@
 namespace vitrine::test {
 namespace {
 
-// Returns the events of `job` as a client that subscribes now receives them.
+// Subscribes to the events of `job` as a client does. Returns the source of the events.
 std::shared_ptr<EventSource> events_of(const JobId& job, Services& services) {
   const RequestHeader header{};
   const nlohmann::json body;
@@ -74,6 +76,72 @@ TEST(JobEvents, WhoeverKnowsTheEndIsToldNotToComeBack) {
   };
   EXPECT_EQ(again("failed"), 204);
   EXPECT_EQ(again("running-0.500"), 200);
+}
+
+// A server with a scan that failed and was made into a public model. The scan is now being measured
+// again.
+class ResumedScan : public ::testing::Test {
+ protected:
+  ResumedScan() {
+    world_.before_step = [](int step) -> std::optional<Error> {
+      if (step < 3) return std::nullopt;
+      return Error{ErrorCode::kIo, "camera 42 is gone; check its cable"};
+    };
+    EXPECT_TRUE(server_.scans().start());
+    const ScanOrder order{
+        .scanner = "rig", .request = {.steps = 12}, .metadata = {.title = "A"}, .is_public = true};
+    scan_ = server_.scans().scan(order, std::nullopt)->scan;
+    settle("rig");
+    const JobId job = server_.scans().reprocess(entry(), order, std::nullopt)->job;
+    settle("");
+    const JobRecord made = (*server_.scans().jobs().find(job))->record;
+    EXPECT_EQ(made.state, JobState::kDone) << made.error;
+    model_ = made.model.value();
+    held_.emplace(world_, 5);
+    EXPECT_TRUE(server_.scans().resume(entry()));
+    held_->await();
+  }
+  ~ResumedScan() override { held_->open(); }
+
+  static std::vector<std::unique_ptr<ScannerBackend>> one(FakeScanner& world) {
+    std::vector<std::unique_ptr<ScannerBackend>> backends;
+    backends.push_back(std::make_unique<FakeBackend>(world));
+    return backends;
+  }
+  void settle(const std::string& executor) {
+    server_.scans().jobs().executor(executor).run([] {});
+  }
+  ScanEntry entry() { return (*server_.scans().find(scan_))->entry; }
+  std::string path() { return "/api/v1/jobs/" + entry().job.to_string(); }
+
+  // Subscribes to the events of the scan's job, and receives the first event.
+  void watch(HttpClient& client, const std::string& who) {
+    client.send("GET " + path() + "/events HTTP/1.1\r\nHost: a\r\n" + who + "\r\n");
+    EXPECT_EQ(client.receive().status, 200);
+    read_until(client, R"("state":"running")");
+  }
+  static void read_until(HttpClient& client, const std::string& text) {
+    std::string events;
+    while (events.find(text) == std::string::npos || !events.ends_with("\n\n"))
+      events += client.read_exactly(1);
+  }
+
+  FakeScanner world_;
+  LocalServer server_{public_routes(), std::chrono::seconds(30), one(world_)};
+  ScanId scan_;
+  ModelId model_;
+  std::optional<HeldAtStep> held_;
+};
+
+TEST_F(ResumedScan, ItsEventsEndForVisitorsWhenItsModelIsWithdrawn) {
+  HttpClient visitor(server_.port()), viewer(server_.port());
+  watch(visitor, "");
+  watch(viewer, server_.bearer(Role::kViewer));
+  ASSERT_TRUE(server_.catalogue().set_state(model_, ModelState::kDraft));
+  EXPECT_TRUE(visitor.is_closed());
+  EXPECT_EQ(http_get(server_.port(), path()).status, 401);
+  held_->open();
+  read_until(viewer, R"("state":"done")");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "codec/export/write_mesh.h"
 #include "codec/format/manifest.h"
+#include "server/api/handlers.h"
 #include "server/api/routes.h"
 #include "server/store/text.h"
 #include "support/local_server.h"
@@ -25,6 +26,7 @@ using test::HttpAnswer;
 using test::HttpClient;
 using test::LocalServer;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string ply_of(const TriangleMesh& mesh) {
   const auto bytes = write_mesh(mesh, MeshFormat::kPly, {.unit = "mm"}).value();
@@ -61,7 +63,7 @@ class ModelOrders : public testing::Test {
   // Returns once all earlier tasks are done.
   void settle() {
     server_.scans().jobs().executor("").run([] {});
-    // Otherwise the cache could return the old state of a model for a tenth of a second.
+    // Without this, the cache could return the old state of a model for a tenth of a second.
     server_.services().models.refresh();
   }
   json job_of(const HttpAnswer& accepted) {
@@ -130,8 +132,8 @@ TEST_F(ModelOrders, AnUploadThatAJobOfAnotherDaemonNeedsStays) {
 TEST_F(ModelOrders, AnUploadIsUsedOrTakenAwayWhoeverComesFirst) {
   for (int round = 0; round < 20; ++round) {
     const std::string id = upload("no mesh");
-    // Blocks the jobs until the test has received both responses. If the job ended earlier, it
-    // would no longer need the upload.
+    // Blocks the jobs until the test has received both responses. Otherwise the first job could
+    // end, and no longer need the upload, before the second request.
     std::promise<void> both;
     server_.scans().jobs().executor("").post([all = both.get_future().share()] { all.wait(); });
     auto made = std::async(std::launch::async, [&] {
@@ -171,6 +173,50 @@ TEST_F(ModelOrders, APmeshIsVerifiedAndPublishedAsItIs) {
   EXPECT_THAT(job["error"].get<std::string>(), HasSubstr("damaged"));
 }
 
+// A tetrahedron as OBJ. One of its faces occurs twice.
+constexpr const char* kTwice =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 3 1 4\n";
+
+TEST_F(ModelOrders, RepairsOfTheBuildAreKeptWithTheModelForCallersWithAToken) {
+  const std::string id = publish(kTwice), viewer = server_.bearer(Role::kViewer);
+  const auto repairs = [&] { return model(id, viewer).at("repairs"); };
+  const json built = repairs();
+  ASSERT_EQ(built.size(), 1u);
+  EXPECT_THAT(built[0].get<std::string>(), HasSubstr("1 duplicate face dropped"));
+  EXPECT_FALSE(model(id).contains("repairs"));
+  EXPECT_EQ(json::parse(ask("GET", "/models", viewer).body)["models"][0]["repairs"], built);
+  EXPECT_FALSE(json::parse(ask("GET", "/models", "").body)["models"][0].contains("repairs"));
+  EXPECT_EQ(ask("GET", "/models/" + id, viewer).field("cache-control"), "private, no-store");
+  const std::vector<json> changes = {
+      {{"title", "A body"}}, {{"unit", "cm"}}, {{"public_max_level", 0}}};
+  for (const json& change : changes) {
+    EXPECT_EQ(ask("PATCH", "/models/" + id, operator_, change).status, 200) << change;
+    EXPECT_EQ(repairs(), built) << change;
+    EXPECT_FALSE(model(id).contains("repairs")) << change;
+  }
+  EXPECT_EQ(publish(mesh_, {{"replace", id}}), id);
+  EXPECT_EQ(repairs(), json::array());
+  EXPECT_EQ(publish(kTwice, {{"replace", id}}), id);
+  EXPECT_EQ(repairs(), built);
+}
+
+TEST_F(ModelOrders, AClientThatHasBuiltAFileMayStateItsRepairs) {
+  const std::string file = ask("GET", "/models/" + publish(mesh_) + "/file.pmesh", "").body;
+  const json stated = {"2 faces of B\u00fcste dropped; check them", "1 picture not carried"};
+  const json job =
+      job_of(ask("POST", "/models", operator_, {{"upload", upload(file)}, {"repairs", stated}}));
+  EXPECT_EQ(job["repairs"], stated) << job;
+  EXPECT_EQ(model(job.value("model", ""), operator_)["repairs"], stated);
+  const std::string id = publish(kTwice, {{"repairs", stated}});
+  EXPECT_THAT(model(id, operator_)["repairs"].dump(), HasSubstr("1 duplicate face dropped"));
+  EXPECT_THAT(model(id, operator_)["repairs"].dump(), Not(HasSubstr("picture")));
+  const std::string unused = upload(file), long_line(kMaxParagraphBytes, 'x');
+  for (const json& wrong : {json{7}, json{"two\nlines"}, json{"\x1b[2J"}, json{long_line, "y"}}) {
+    const json order = {{"upload", unused}, {"repairs", wrong}};
+    EXPECT_EQ(fault_of(ask("POST", "/models", operator_, order)), "repairs");
+  }
+}
+
 TEST_F(ModelOrders, WhatIsNoMeshFailsWithTheFaultAndIsNotSeen) {
   for (const std::string bytes :
        {"no mesh at all", "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", ""}) {
@@ -195,6 +241,7 @@ TEST_F(ModelOrders, AWrongOrderNamesItsField) {
                       {"replace", "x"},
                       {"publish", 1},
                       {"colour", "red"},
+                      {"repairs", "1 face dropped"},
                       {"webhook", "http://elsewhere.example/"}};
   for (const auto& [name, value] : wrong.items()) {
     const json order = {{"upload", whole}, {name, value}};
@@ -228,7 +275,7 @@ TEST_F(ModelOrders, AModelThatIsReplacedKeepsItsIdAndWhatIsNotSaidAnew) {
   const std::string before = model(id)["bytes"].dump();
   const std::string now =
       publish(ply_of(test::torus(30, 20)), {{"replace", id}, {"metadata", {{"title", "New"}}}});
-  server_.services().models.refresh();  // otherwise the cache could return the old model
+  server_.services().models.refresh();  // without this, the cache could return the old model
   EXPECT_EQ(now, id);
   EXPECT_EQ(model(id)["title"], "New");
   EXPECT_EQ(model(id)["creator"], "A. N. Other");
@@ -245,12 +292,13 @@ TEST_F(ModelOrders, TextsAreChangedWhereTheModelIsTheOneThatWasRead) {
       ask("PATCH", path, operator_,
           {{"title", "Ring"}, {"description", "A ring"}, {"accuracy", 0.05}}, read);
   EXPECT_EQ(done.status, 200) << done.body;
-  const json shown = model(id);
+  json shown = model(id, operator_);
   EXPECT_EQ(shown["title"], "Ring");
   EXPECT_EQ(shown["description"], "A ring");
   EXPECT_EQ(shown["accuracy"], 0.05);
+  EXPECT_EQ(shown["dimensions"]["unit"], "mm");
   EXPECT_EQ(json::parse(done.body), shown);
-  EXPECT_EQ(ask("GET", path, "").field("etag"), done.field("etag"));
+  EXPECT_EQ(ask("GET", path, operator_).field("etag"), done.field("etag"));
   EXPECT_EQ(ask("PATCH", path, operator_, {{"title", "Late"}}, read).status, 412);
   EXPECT_EQ(ask("DELETE", path, operator_, nullptr, read).status, 412);
   EXPECT_EQ(model(id)["title"], "Ring");
@@ -324,7 +372,7 @@ TEST_F(ModelOrders, WhatIsPublicOfAModelHasToFitIntoTheQuota) {
                   .status,
               201);
   }
-  std::size_t filled = 0;  // the number of bytes in use, from the error message
+  std::size_t filled = 0;  // number of bytes in use, read from the error message
   const HttpAnswer full = send(
       "POST", "/uploads",
       server_.bearer(Role::kOperator) + "Tus-Resumable: 1.0.0\r\nUpload-Length: 1000000\r\n", "");
@@ -365,7 +413,10 @@ TEST_F(ModelOrders, AnUploadThatAJobWaitsForIsNotDeleted) {
 
 TEST_F(ModelOrders, AnotherUnitIsInTheFileToo) {
   const std::string id = publish(mesh_);
-  EXPECT_EQ(ask("PATCH", "/models/" + id, operator_, {{"unit", "in"}}).status, 200);
+  const HttpAnswer changed = ask("PATCH", "/models/" + id, operator_, {{"unit", "in"}});
+  EXPECT_EQ(changed.status, 200);
+  EXPECT_EQ(json::parse(changed.body)["dimensions"], model(id)["dimensions"]);
+  EXPECT_EQ(model(id)["dimensions"]["unit"], "in");
   EXPECT_EQ(model(id)["unit"], "in");
   const json manifest = json::parse(ask("GET", "/models/" + id + "/manifest", "").body);
   EXPECT_EQ(manifest["unit"], "in");
@@ -421,6 +472,9 @@ TEST_F(ModelOrders, VisitorsSeeNoMoreThanThePublicLevel) {
 TEST_F(ModelOrders, PostersAreMadeWhenVisitorsSeeAnotherFile) {
   constexpr std::uint64_t kWidths = 3;
   server_.services().exports.set_capacity(10'000'000);
+  server_.services().order_posters = [this](const ModelId& model) {
+    make_posters(model, server_.services());
+  };
   const std::string id = publish(ply_of(test::torus(80, 60)), {{"publish", false}});
   const std::string path = "/models/" + id;
   const auto& made = server_.services().exports.made;

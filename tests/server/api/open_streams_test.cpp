@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests open streams of models that are changed meanwhile. Each client waits up to 20 s for the
-// server's close frame, and sends nothing before the frame arrives.
+// Tests what happens to the open streams of a model that is changed. Each client waits up to 20 s
+// for the server's close frame, and sends nothing before the frame arrives.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "server/api/routes.h"
 #include "server/store/change.h"
+#include "support/damage_object.h"
 #include "support/hierarchies.h"
 #include "support/local_server.h"
 #include "support/process/http_client.h"
@@ -51,16 +53,17 @@ class OpenStreams : public testing::Test {
     ASSERT_EQ(frame.kind, WebSocketFrame::kClose);
     EXPECT_EQ(frame.close_code(), kServiceRestart);
   }
-  // Expects that the stream answers a detail request that the head alone meets.
+  // Expects that the stream answers a detail request. The head of the model alone meets this
+  // request.
   static void expect_alive(WebSocketClient& client) {
     client.send_text(R"({"type":"want","level":0})");
     const WebSocketFrame frame = client.receive();
     ASSERT_EQ(frame.kind, WebSocketFrame::kText);
     EXPECT_EQ(json::parse(frame.payload)["type"], "done");
   }
-  // Returns once the server has checked all open streams after all changes so far. Two streams end
-  // one after the other. The second one ends in a later round of checks, so the first round is then
-  // complete.
+  // Returns once the server has checked all open streams after the changes so far. For this, two
+  // streams are ended one after the other. The server notices the end of the second stream in a
+  // later round of checks, so the earlier round is then complete.
   void await_check() {
     for (int round = 0; round < 2; ++round) {
       const std::string witness = add_model(12);
@@ -97,6 +100,37 @@ TEST_F(OpenStreams, EndIfAnotherProcessReplacesTheFile) {
   WebSocketClient stream = open(id_), of_caller = open(id_, operator_);
   ASSERT_TRUE(
       replace(server_.store(), server_.catalogue(), file_of(30), {}, {.id = ModelId::parse(id_)}));
+  expect_end(stream);
+  expect_end(of_caller);
+}
+
+// A request that arrives before the server has checked the open streams.
+TEST_F(OpenStreams, ARequestForDetailAfterTheChangeGetsNoByte) {
+  const std::function<void(const std::string&)> changes[] = {
+      [this](const std::string& id) { withdraw(id); },
+      [this](const std::string& id) {
+        change("PATCH", id, {{"public_max_level", 0}});
+      },
+      [this](const std::string& id) {
+        ASSERT_TRUE(replace(server_.store(), server_.catalogue(), file_of(30), {},
+                            {.id = ModelId::parse(id)}));
+        server_.services().models.refresh();
+      }};
+  for (const auto& change : changes) {
+    const std::string id = add_model(24);
+    WebSocketClient stream = open(id);
+    change(id);
+    stream.send_text(R"({"type":"want","level":255})");
+    expect_end(stream);
+  }
+}
+
+// The catalogue does not change when a file is found damaged, but streams must end.
+TEST_F(OpenStreams, EndIfTheFileIsFoundDamaged) {
+  WebSocketClient stream = open(id_), of_caller = open(id_, operator_);
+  await_check();
+  test::damage_object(server_.data(), server_.catalogue().find(*ModelId::parse(id_)).value()->file);
+  ASSERT_TRUE(server_.scrubber().check_all());
   expect_end(stream);
   expect_end(of_caller);
 }

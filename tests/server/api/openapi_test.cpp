@@ -24,8 +24,8 @@ constexpr ApiRoute kOpenapiRoutes[] = {{.method = Method::kGet,
                                         .handler = show_openapi,
                                         .executor = Executor::kInline}};
 
-// Whether the OpenAPI document must describe the route. The document omits OPTIONS, which every
-// path supports.
+// Returns whether the OpenAPI document must describe the route. The document omits OPTIONS, which
+// every path supports.
 bool is_of_the_interface(const ApiRoute& route) {
   return route.path.starts_with("/api/v1/") && route.method != Method::kOptions;
 }
@@ -71,6 +71,33 @@ TEST_F(OpenapiTest, OnlyRoutesOfTheInterfaceHaveDocumentationEachUnderItsOwnName
   }
 }
 
+TEST_F(OpenapiTest, EveryTagIsDescribedAndUsed) {
+  std::set<std::string> described, used;
+  for (const auto& tag : document["tags"]) {
+    described.insert(tag["name"]);
+    EXPECT_FALSE(tag["description"].get<std::string>().empty()) << tag;
+  }
+  for (const auto& [path, methods] : document["paths"].items()) {
+    for (const auto& [method, operation] : methods.items())
+      used.insert(operation["tags"][0].get<std::string>());
+  }
+  EXPECT_EQ(described, used);
+}
+
+TEST_F(OpenapiTest, OperationsNameTheProblemsOfTheirKind) {
+  const auto codes = [&](const char* path, const char* method) {
+    std::vector<std::string> all;
+    for (const auto& [code, response] : document["paths"][path][method]["responses"].items())
+      all.push_back(code);
+    return all;
+  };
+  EXPECT_THAT(codes("/api/v1/models", "get"), ::testing::ElementsAre("200", "400", "default"));
+  EXPECT_THAT(codes("/api/v1/models/{id}", "get"),
+              ::testing::ElementsAre("200", "400", "404", "default"));
+  EXPECT_THAT(codes("/api/v1/models/{id}", "delete"),
+              ::testing::ElementsAre("204", "400", "401", "403", "404", "default"));
+}
+
 // Expects that every schema of type "array" below `json` has `items`.
 void expect_items(const nlohmann::json& json) {
   if (json.is_object() && json.contains("type") && json["type"] == "array") {
@@ -97,6 +124,14 @@ TEST(ApiNouns, NoTwoDefineTheSameComponent) {
   }
 }
 
+TEST(ApiNouns, NoTwoDescribeTheSameTag) {
+  std::set<std::string_view> seen;
+  for (const ApiNoun* noun : public_nouns()) {
+    for (const ApiTag& tag : noun->tags)
+      EXPECT_TRUE(seen.insert(tag.name).second) << tag.name;
+  }
+}
+
 // Calls `see` with each reference "#/components/…" in `json`.
 void for_each_reference(const nlohmann::json& json, const std::function<void(std::string)>& see) {
   if (json.is_object() && json.contains("$ref")) see(json["$ref"].get<std::string>());
@@ -117,7 +152,7 @@ TEST_F(OpenapiTest, EveryReferenceResolvesAndEveryComponentIsUsed) {
   }
 }
 
-// Each `order` below has every member that a request may have.
+// Each `order` below contains every member that a request may contain.
 TEST_F(OpenapiTest, EveryMemberOfAnOrderIsDescribed) {
   const auto is_described = [&](const std::string& schema, const std::string& order) {
     const nlohmann::json& schemas = document["components"]["schemas"];
@@ -137,6 +172,7 @@ TEST_F(OpenapiTest, EveryMemberOfAnOrderIsDescribed) {
   model.replace = ModelId();
   model.webhook = "http://a";
   model.unit = "mm";
+  model.repairs = "1 face dropped";
   is_described("ModelOrder", to_json_text(model));
 }
 

@@ -25,7 +25,7 @@ Response wait_for_the_test(const Request&, Services&) {
 }
 
 std::mutex turns_mutex;
-std::vector<std::string> turns;  // the clients' addresses, in the order of their turns
+std::vector<std::string> turns;  // client addresses, in the order in which requests ran
 
 Response note_the_turn(const Request& request, Services& services) {
   {
@@ -60,7 +60,7 @@ Response pour_slowly(const Request&, Services&) {
   return response;
 }
 
-constexpr std::size_t kLarge = 32'000'000;  // far more than the buffers of two sockets hold
+constexpr std::size_t kLarge = 32'000'000;  // far more bytes than the buffers of two sockets hold
 
 Response large_text(const Request&, Services&) {
   Response response;
@@ -166,10 +166,10 @@ TEST(Overload, AClientWithManyExportsDelaysThoseOfAnotherByOneOnly) {
   }
   for (int i = 0; i < 8; ++i)
     ask(std::to_string(i), "192.0.2.1");
-  // Waits until two exports run, the most that may run at a time.
+  // Waits until two exports run, the largest number that may run at a time.
   entered.acquire(), entered.acquire();
   ask("other", "192.0.2.2");
-  // The thread that serves all connections has read the other request before this one.
+  // One thread serves all connections, so it has read the request to `other` before this one.
   EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200);
   may_end.release();
   entered.acquire();
@@ -209,7 +209,7 @@ TEST(Overload, CallsThatWaitForDevicesOrTheDiskLeaveTheWorkersToOthers) {
   const test::LocalServer server(kCrowdedRoutes);
   for (const std::string path : {"/device", "/disk", "/pour"}) {
     std::vector<std::unique_ptr<test::HttpClient>> waiting;
-    for (int i = 0; i < 4; ++i) {  // the device and the disk executor have four threads each
+    for (int i = 0; i < 4; ++i) {  // the executors have four threads each
       waiting.push_back(std::make_unique<test::HttpClient>(server.port()));
       waiting.back()->send("POST " + path + " HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
       entered.acquire();
@@ -247,7 +247,7 @@ TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
   for (const std::string path : {"/text", "/shared"}) {
     auto first = ask(path);
     while (first->receive(/*with_body=*/false).status ==
-           503)  // repeats until earlier responses have ended
+           503)  // repeats until earlier responses have freed their memory
       first = ask(path);
     const test::HttpAnswer refused = test::http_get(server.port(), "/text");
     EXPECT_EQ(refused.status, 503) << path;
@@ -261,8 +261,8 @@ TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
   }
 }
 
-// Each of these requests gets an error without access to the disk. A different part of the server
-// detects each error.
+// The server answers each of these requests with an error, or with the list of methods, without
+// reading the disk. Each answer comes from a different part of the server.
 TEST(Overload, ErrorsAndOptionsCountTowardsTheRateAndOtherAnswersFromMemoryDoNot) {
   for (const std::string request :
        {"GET /nothing HTTP/1.1\r\nHost: a\r\n\r\n", "PUT /quick HTTP/1.1\r\nHost: a\r\n\r\n",

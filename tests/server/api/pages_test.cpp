@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the policies that browsers enforce for the daemon's pages.
+// Tests the daemon's pages: the policies that browsers enforce, error pages, and sitemaps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <set>
+
 #include "server/api/routes.h"
+#include "server/catalogue/sqlite.h"
 #include "server/store/publish.h"
 #include "support/local_server.h"
 #include "support/process/http_client.h"
@@ -79,6 +83,80 @@ TEST_F(Pages, SearchEnginesFindThePublishedModelsOnly) {
   EXPECT_THAT(get("/sitemap.xml").body, HasSubstr("/models/" + id.to_string() + "</loc>"));
   ASSERT_TRUE(server_.catalogue().set_state(id, ModelState::kDraft));
   EXPECT_THAT(get("/sitemap.xml").body, Not(HasSubstr(id.to_string())));
+}
+
+// A collection with one model and 10,000 newer copies of its record.
+class LargeCollection : public testing::Test {
+ protected:
+  void SetUp() override {
+    const test::TinyPmesh file = test::tiny_pmesh("the base", "a chunk");
+    oldest_ =
+        publish(server_.store(), server_.catalogue(), file.bytes, {.title = "A"})->id.to_string();
+    sqlite::SqliteHandle(server_.data() / kCatalogueFile)
+        .run(
+            "CREATE TEMP TABLE copy AS WITH RECURSIVE k(i) AS (VALUES(1) UNION ALL "
+            "SELECT i + 1 FROM k WHERE i < 10000) SELECT model.* FROM model, k;"
+            "UPDATE copy SET id = CAST(printf('0%015d', rowid) AS BLOB);"
+            "INSERT INTO model SELECT * FROM copy;");
+  }
+  std::string get(const std::string& path) {
+    const test::HttpAnswer answer = test::http_get(server_.port(), path);
+    EXPECT_EQ(answer.status, 200) << path;
+    return answer.body;
+  }
+  // Returns the path part of an address that begins with "http://localhost:PORT".
+  static std::string path_of(const std::string& address) {
+    return address.substr(address.find('/', std::string_view("http://").size()));
+  }
+
+  test::LocalServer server_{public_routes()};
+  std::string oldest_;
+};
+
+// Returns the texts of all <loc> elements.
+std::vector<std::string> addresses_in(std::string_view xml) {
+  constexpr std::string_view kBegin = "<loc>", kEnd = "</loc>";
+  std::vector<std::string> all;
+  for (std::size_t at = 0; (at = xml.find(kBegin, at)) != xml.npos;) {
+    at += kBegin.size();
+    all.emplace_back(xml.substr(at, xml.find(kEnd, at) - at));
+  }
+  return all;
+}
+
+TEST_F(LargeCollection, HasAnIndexOfSitemapsWithEveryModelOnce) {
+  const std::string index = get("/sitemap.xml");
+  EXPECT_THAT(index, HasSubstr("<sitemapindex "));
+  const auto sitemaps = addresses_in(index);
+  ASSERT_EQ(sitemaps.size(), 2u);
+  const auto first = addresses_in(get(path_of(sitemaps[0]))),
+             second = addresses_in(get(path_of(sitemaps[1])));
+  EXPECT_EQ(std::set(first.begin(), first.end()).size(), 10'001u);
+  EXPECT_EQ(path_of(first[0]), "/");
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(path_of(second[0]), "/models/" + oldest_);
+}
+
+TEST_F(LargeCollection, IsAnIiifCollectionOfCollections) {
+  const auto read = [&](const std::string& path) { return nlohmann::json::parse(get(path)); };
+  const auto top = read("/api/v1/iiif/collection.json");
+  ASSERT_EQ(top["items"].size(), 2u);
+  std::set<std::string> manifests;
+  for (const auto& item : top["items"]) {
+    EXPECT_EQ(item["type"], "Collection");
+    const auto part = read(path_of(item["id"]));
+    EXPECT_EQ(part["id"], item["id"]);
+    EXPECT_EQ(part["partOf"][0]["id"], top["id"]);
+    for (const auto& manifest : part["items"])
+      manifests.insert(path_of(manifest["id"]));
+  }
+  EXPECT_EQ(manifests.size(), 10'001u);
+  EXPECT_TRUE(manifests.contains("/api/v1/iiif/" + oldest_ + "/manifest.json"));
+}
+
+TEST_F(LargeCollection, NamesAFaultyCursor) {
+  for (const char* path : {"/sitemap.xml?cursor=x", "/api/v1/iiif/collection.json?cursor=x"})
+    EXPECT_EQ(test::http_get(server_.port(), path).status, 400) << path;
 }
 
 }  // namespace

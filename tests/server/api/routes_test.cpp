@@ -14,7 +14,7 @@ namespace {
 const std::string kId = "01hf0000000000000000000000";
 const std::string kSha(64, 'a');
 
-// A router of the public routes, without their handlers.
+// Returns a router for the public routes. It does not call their handlers.
 Router make_router() {
   std::vector<Route> routes;
   for (const ApiRoute& route : public_routes())
@@ -45,6 +45,7 @@ TEST(Routes, AreFoundByTheirPaths) {
   EXPECT_EQ(reached("/api/v1/models/" + kId), "/api/v1/models/{id}");
   EXPECT_EQ(reached("/api/v1/models/" + kId + "/manifest"), "/api/v1/models/{id}/manifest");
   EXPECT_EQ(reached("/api/v1/models/" + kId + "/file.pmesh"), "/api/v1/models/{id}/file.pmesh");
+  EXPECT_EQ(reached("/api/v1/models/" + kId + "/tileset.json"), "/api/v1/models/{id}/tileset.json");
   for (const ExportFormat& row : kExportFormats) {
     EXPECT_EQ(reached("/api/v1/models/" + kId + "/export." + std::string(row.extension)),
               "/api/v1/models/{id}/export.{format}");
@@ -94,13 +95,13 @@ TEST(Routes, ParseNamesAndNumbers) {
   }
 }
 
-TEST(Routes, NeedARoleUnlessTheyAreAPublicReadOrCountAVisit) {
+TEST(Routes, NeedARoleUnlessTheyAreAPublicReadOrCountAVisitOrHarvest) {
   for (const ApiRoute& route : public_routes()) {
     if (route.method == Method::kGet && route.role == Role::kNone) continue;
     EXPECT_EQ(route.quick, nullptr) << route.path;
     if (route.method == Method::kOptions) continue;  // OPTIONS only lists the methods of a path
-    const bool counts_visit = route.path == "/api/v1/models/{id}/visits";
-    EXPECT_EQ(route.role == Role::kNone, counts_visit) << route.path;
+    const bool is_open = route.path == "/api/v1/models/{id}/visits" || route.path == "/api/v1/oai";
+    EXPECT_EQ(route.role == Role::kNone, is_open) << route.path;
   }
 }
 

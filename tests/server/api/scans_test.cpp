@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests scanners, calibrations, scans and jobs over HTTP. The scanner has no devices
+// Tests scanners, calibrations, scans and jobs over HTTP. The scanner is simulated, without devices
 // (fake_backend.h).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,8 +62,8 @@ class ScanRoutes : public testing::Test {
     return "/jobs/" + started["job"].get<std::string>();
   }
   // Returns once all earlier tasks of the scanner are done.
-  void settle(const std::string& lane = "rig") {
-    server_.scans().jobs().executor(lane).run([] {});
+  void settle(const std::string& scanner = "rig") {
+    server_.scans().jobs().executor(scanner).run([] {});
   }
 
   // Returns the next event of the stream. Skips comments.

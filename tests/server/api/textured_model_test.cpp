@@ -198,7 +198,7 @@ TEST_F(TexturedModelApi, ALimitHidesTheOriginalsEvenAtTheFinestLevel) {
 TEST_F(TexturedModelApi, ThePosterShowsTheTexture) {
   const std::string poster = ask(api_ + "/poster.png?width=240").body;
   const Picture picture = decode_picture(bytes_of(poster), 1 << 24).value();
-  std::set<std::uint8_t> hues;  // green minus blue of each opaque pixel; 0 in a grey picture
+  std::set<std::uint8_t> hues;  // green minus blue of each opaque pixel; only 0 in a grey picture
   for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
     if (picture.pixels[i + 3] == 255)
       hues.insert(static_cast<std::uint8_t>(picture.pixels[i + 1] - picture.pixels[i + 2]));

@@ -130,7 +130,7 @@ TEST_F(UploadRoutes, ACallWhosePeerHasGoneIsAuditedAndCounted) {
     EXPECT_EQ(head(path).status, 200);  // the server still answers other requests
     told = server_.events();
   }
-  head(path);  // once this request is answered, the metrics count the aborted ones
+  head(path);  // once this request is answered, the metrics count the aborted requests
   EXPECT_THAT(server_.metrics().text(),
               HasSubstr(R"(route="/api/v1/models/{id}/publish",status="4xx"} 1)"));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests every route with every role, for each state of a scan's model. No response to a visitor
-// may contain what the model hides. Prints the access matrix.
+// Sends every request with every role, for each state of a scan's model. No response to a visitor
+// may contain data that the model's state hides. Prints the access matrix.
 #include "server/api/visibility.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,9 @@
 
 #include "server/api/routes.h"
 #include "server/store/change.h"
+#include "support/damage_object.h"
 #include "support/fake_backend.h"
+#include "support/held_executor.h"
 #include "support/hierarchies.h"
 #include "support/local_server.h"
 #include "support/process/http_client.h"
@@ -28,7 +30,7 @@ std::string text_of(const Bytes& bytes) {
   return {bytes.begin(), bytes.end()};
 }
 
-// Content that a visitor must not get. Stores a hash of every substring of kWindow bytes.
+// Content that a visitor must not get. Stores a hash of every substring that is kWindow bytes long.
 class Secrets {
  public:
   void hide(std::string_view content) {
@@ -55,7 +57,7 @@ class Secrets {
   std::unordered_set<std::size_t> windows_;
 };
 
-// The texts that replace the parameters of a route.
+// Texts to insert for each parameter of a route.
 using Values = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 std::vector<std::string> expanded(const std::string& path, const Values& values) {
@@ -73,12 +75,16 @@ std::vector<std::string> expanded(const std::string& path, const Values& values)
   return all;
 }
 
-// Returns the queries with which a route could reveal more than without a query.
+// Returns the queries with which a route could reveal more than it does without a query.
 std::vector<std::string> queries_of(std::string_view path, const std::string& model) {
-  if (path.ends_with("/export.{format}")) return {"", "?level=highest"};
+  if (path.ends_with("/export.{format}")) return {"", "?level=highest", "?lod=msft"};
   if (path.ends_with("/manifest")) return {"", "?level=highest"};
   if (path.ends_with("/poster.png")) return {"?width=240"};
-  if (path == "/api/v1/models") return {"", "?drafts=true"};
+  if (path == "/api/v1/models" || path == "/api/v1/facets") return {"", "?drafts=true"};
+  if (path == "/api/v1/oai") {
+    return {"?verb=ListRecords&metadataPrefix=oai_dc", "?verb=ListRecords&metadataPrefix=lido",
+            "?verb=GetRecord&metadataPrefix=edm&identifier=oai:localhost:" + model};
+  }
   if (path == "/api/v1/oembed") return {"?url=http://localhost/models/" + model};
   return {""};
 }
@@ -88,10 +94,11 @@ std::vector<std::string> exports_of(const std::string& model) {
   std::vector<std::string> paths = {path + "/poster.png?width=240"};
   for (const char* format : {"glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "obj.zip"})
     paths.push_back(path + "/export." + format);
+  paths.push_back(path + "/export.glb?lod=msft");
   return paths;
 }
 
-// Returns the part of an export that tells the model's shape or look. For USDZ, returns only the
+// Returns the part of an export that reveals the model's shape or look. For USDZ, this is only the
 // list of positions, because the lists of indices look like lists in a manifest.
 std::string_view telling_part(std::string_view path, std::string_view body) {
   if (!path.ends_with(".usdz")) return body;
@@ -100,23 +107,38 @@ std::string_view telling_part(std::string_view path, std::string_view body) {
   return begin == std::string_view::npos ? "" : body.substr(begin + 16, end - begin - 16);
 }
 
-// A server with a scan that became a public model, or a draft.
+// How far a scan has come.
+enum class Phase { kModel, kScanning };  // has become a model; still waits at a step
+
+// A server with a scan that is ordered as public or as a draft.
 class World {
  public:
-  explicit World(bool is_public) {
+  explicit World(bool is_public, Phase phase = Phase::kModel) {
+    if (phase == Phase::kScanning) step.emplace(rig, 6);
     EXPECT_TRUE(server.scans().start());
-    const json started = json::parse(ask("POST", "/api/v1/scans", Role::kOperator,
-                                         json{{"scanner", "rig"},
-                                              {"steps", 12},
-                                              {"metadata", {{"title", "A"}}},
-                                              {"publish", is_public}}
-                                             .dump())
-                                         .body);
+    const json started =
+        json::parse(ask("POST", "/api/v1/scans", Role::kOperator,
+                        json{{"scanner", "rig"},
+                             {"steps", 12},
+                             {"metadata", {{"title", "A"}, {"collection", "Hidden cabinet"}}},
+                             {"publish", is_public}}
+                            .dump())
+                        .body);
     scan = started.at("id");
     job = started.at("job");
+    if (step) {
+      step->await();
+      model = ModelId::generate().to_string();  // a model that does not exist
+      return;
+    }
     server.scans().jobs().executor("rig").run([] {});  // returns once the scan has ended
     model = json::parse(ask("GET", scan_path(), Role::kAdmin).body).at("model");
   }
+  ~World() {
+    if (step) step->open();
+  }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
 
   HttpAnswer ask(const std::string& method, const std::string& path, Role role,
                  const std::string& body = "") {
@@ -127,15 +149,18 @@ class World {
                             body));
     HttpAnswer answer = client.receive();
     if (answer.field("content-type") != "text/event-stream") return answer;
+    // The stream of a waiting job has one event and stays open. Any other stream is read until it
+    // ends.
+    const bool job_waits = held || step;
     try {
-      while (true)
+      while (!job_waits || !answer.body.ends_with("\n\n"))
         answer.body += client.read_exactly(1);
-    } catch (const std::runtime_error&) {  // the connection has ended, as it should
+    } catch (const std::runtime_error&) {  // the connection has ended as expected
     }
     return answer;
   }
 
-  // Returns the bytes that a visitor receives by the stream, with the model's head.
+  // Returns the bytes that a visitor receives over the stream, including the model's head.
   std::string streamed() {
     std::string bytes;
     try {
@@ -147,7 +172,7 @@ class World {
         if (frame.kind == test::WebSocketFrame::kBinary) bytes += frame.payload.substr(16);
         if (frame.payload.find(R"("done")") != std::string::npos) break;
       }
-    } catch (const std::runtime_error&) {  // no such model for a visitor
+    } catch (const std::runtime_error&) {  // the visitor may not see the model
     }
     return bytes;
   }
@@ -156,7 +181,7 @@ class World {
   std::string model_path() const { return "/api/v1/models/" + model; }
   ModelId model_id() const { return *ModelId::parse(model); }
 
-  // Returns the bytes of the file that visitors may read. Returns no bytes if they may read none.
+  // Returns the bytes of the file that visitors may read, or no bytes if visitors may read no file.
   Bytes visible_file() {
     const auto record = server.catalogue().find(model_id()).value();
     if (!record || record->state != ModelState::kPublished) return {};
@@ -172,6 +197,8 @@ class World {
   const std::string tokens[4] = {"", server.bearer(Role::kViewer), server.bearer(Role::kOperator),
                                  server.bearer(Role::kAdmin)};
   std::string scan, job, model;
+  std::unique_ptr<test::HeldExecutor> held;  // while it is not null, jobs that build models wait
+  std::optional<test::HeldAtStep> step;      // has a value if the scan waits at a step
 
  private:
   static std::vector<std::unique_ptr<ScannerBackend>> one(test::FakeScanner& rig) {
@@ -180,17 +207,21 @@ class World {
     return backends;
   }
   Bytes read(const Sha256& name) {
-    const auto object = server.store().open(name).value();
-    return object->read(0, object->size()).value();
+    const auto object = server.store().open(name);
+    return object ? (*object)->read(0, (*object)->size()).value() : Bytes();
   }
 };
 
-// A state of the scan's model, and what a visitor then gets of the model and of the scan.
+constexpr int kDamaged = 500;  // the status of each request that needs a damaged file
+
+// A state of the scan's model, and the statuses with which a visitor's requests for the model and
+// the scan are then answered.
 struct State {
   const char* name;
   bool is_public_scan;
   void (*enter)(World& world);
   int model_status, scan_status;
+  Phase phase = Phase::kModel;
 };
 
 void patch(World& world, const json& change) {
@@ -220,8 +251,46 @@ void reprocess(World& world, const json& order) {
   world.server.scans().jobs().executor("").run([] {});  // returns once the job has ended
 }
 
+void reprocess_later(World& world) {
+  world.held = std::make_unique<test::HeldExecutor>(world.server.scans().jobs().executor(""));
+  const HttpAnswer answer =
+      world.ask("POST", world.scan_path() + "/reprocess", Role::kOperator, R"({"bits":14})");
+  EXPECT_EQ(answer.status, 202) << answer.body;
+  world.job = json::parse(answer.body).at("job");
+}
+
+void damage(World& world) {
+  const auto record = world.server.catalogue().find(world.model_id()).value();
+  test::damage_object(world.server.data(), record->file);
+  EXPECT_TRUE(world.server.scrubber().check_all());
+}
+
+void cancel_scan(World& world) {
+  EXPECT_EQ(world.ask("DELETE", "/api/v1/jobs/" + world.job, Role::kOperator).status, 202);
+  world.step->open();
+  world.server.scans().jobs().executor("rig").run([] {});  // returns once the scan has ended
+  world.step.reset();
+}
+
 constexpr State kStates[] = {
+    {"not made yet, its scan ordered as public", true, [](World&) {}, 404, 200, Phase::kScanning},
+    {"not made yet, its scan ordered as a draft", false, [](World&) {}, 404, 401, Phase::kScanning},
+    {"not made, its public scan cancelled", true, cancel_scan, 404, 401, Phase::kScanning},
     {"published", true, [](World&) {}, 200, 200},
+    {"published again", true,
+     [](World& world) {
+       withdraw(world);
+       EXPECT_EQ(world.ask("POST", world.model_path() + "/publish", Role::kOperator).status, 200);
+     },
+     200, 200},
+    {"published, its scan being reprocessed", true, reprocess_later, 200, 200},
+    {"withdrawn, its scan being reprocessed", true,
+     [](World& world) {
+       withdraw(world);
+       reprocess_later(world);
+     },
+     404, 401},
+    {"damaged", true, damage, kDamaged, 401},
     {"in cm", true,
      [](World& world) {
        patch(world, {{"unit", "cm"}});
@@ -261,7 +330,7 @@ constexpr State kStates[] = {
      404, 401},
 };
 
-// The access matrix: for each route and column, the lowest status of all responses.
+// The access matrix. For each route and column, it holds the lowest HTTP status of all responses.
 class Matrix {
  public:
   void record(const std::string& route, const std::string& column, int status) {
@@ -294,7 +363,7 @@ constexpr const char* kRoles[] = {"visitor", "viewer", "operator", "admin"};
 class Walk {
  public:
   Walk(const State& state, Matrix& matrix)
-      : state_(state), matrix_(matrix), world_(state.is_public_scan) {
+      : state_(state), matrix_(matrix), world_(state.is_public_scan, state.phase) {
     hide_everything();
     const Bytes before = world_.whole_file();
     state.enter(world_);
@@ -323,9 +392,9 @@ class Walk {
   }
 
  private:
-  // Adds the points, the profile, the pictures and the exports of the scan's model to the secrets.
+  // Adds the scan's points, profile and pictures and the exports of its model to the secrets.
   void hide_everything() {
-    auto paths = exports_of(world_.model);
+    auto paths = world_.step ? std::vector<std::string>() : exports_of(world_.model);
     paths.insert(paths.end(), {world_.scan_path() + "/points", world_.scan_path() + "/profile",
                                "/api/v1/scanners/rig/preview"});
     for (const std::string& path : paths) {
@@ -339,13 +408,22 @@ class Walk {
   // points and the profile if the scan is visible.
   void reveal_what_is_public() {
     // Exports state their source, and other responses contain addresses of the same server.
-    for (const char* before : {": ", "\":\"", "\": \""})
+    for (const char* before : {": ", "\":\"", "\": \"", ">"})
       secrets_.reveal(before + std::string("http://localhost/models/"));
+    // A response may repeat the ID that the request names, in quotes or as the end of an element.
+    for (const char* after : {"\"", "<"})
+      secrets_.reveal(world_.model + after);
+    // Exports and the records of other models have these texts of XML in common.
+    for (const char* text :
+         {"<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<", "\"http://purl.org/dc/elements/1.1/\"",
+          "\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\""})
+      secrets_.reveal(text);
     if (state_.scan_status == 200) {
       for (const char* part : {"/points", "/profile"})
         secrets_.reveal(world_.ask("GET", world_.scan_path() + part, Role::kAdmin).body);
     }
     const Bytes file = world_.visible_file();
+    if (state_.model_status == kDamaged) reveal_the_record();
     if (file.empty()) return;
     secrets_.reveal(text_of(file));
     test::LocalServer other(public_routes());
@@ -353,6 +431,14 @@ class Walk {
         publish(other.store(), other.catalogue(), file, {.title = "A"}, {.id = world_.model_id()}));
     for (const std::string& path : exports_of(world_.model))
       secrets_.reveal(telling_part(path, test::http_get(other.port(), path).body));
+  }
+
+  // Visitors may see what the catalogue knows of a model, even if its file is damaged: the list of
+  // models shows it.
+  void reveal_the_record() {
+    secrets_.reveal("http://localhost" + world_.model_path() + "/");
+    secrets_.reveal("http://localhost/models/" + world_.model + "/");
+    secrets_.reveal(world_.ask("GET", "/api/v1/models", Role::kNone).body);
   }
 
   void name_chunks(const Bytes& file) {
@@ -370,22 +456,26 @@ class Walk {
             {"sha256", names_},
             {"format", {"glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "obj.zip"}},
             {"name", {"rig"}},
+            {"collection", {"Hidden%20cabinet"}},
             {"number", {"1"}},
             {"rest", {"docs.js", "model.html"}}};
   }
 
-  // Requests that change something name the real model, scan and job only if `role` must be
-  // refused.
+  // Requests all paths of the route. A request that changes data names the real model, scan and job
+  // only if the server must refuse it to `role`, because later requests still need them.
   void walk(const ApiRoute& route, Role role) {
     const bool may = role >= route.role, reads = route.method == Method::kGet;
     const char* method = kMethods[static_cast<std::size_t>(route.method)];
     for (const std::string& path : expanded(std::string(route.path), values(reads || !may))) {
       for (const std::string& query : queries_of(route.path, world_.model)) {
         const HttpAnswer answer = world_.ask(method, path + query, role);
-        check(
-            answer,
-            fmt::format("{} {} {}{}", kRoles[static_cast<std::size_t>(role)], method, path, query),
-            role, may);
+        const auto request =
+            fmt::format("{} {} {}{}", kRoles[static_cast<std::size_t>(role)], method, path, query);
+        check(answer, request, role, may);
+        const bool fails =
+            state_.model_status == kDamaged && may && reads && needs_file(route.path, path + query);
+        EXPECT_EQ(answer.status >= 500 ? answer.status : 0, fails ? kDamaged : 0)
+            << request << ": " << answer.body;
         matrix_.record(fmt::format("{} {}", method, route.path), column(role), answer.status);
       }
     }
@@ -400,11 +490,18 @@ class Walk {
     const int refused = role == Role::kNone ? 401 : 403;
     EXPECT_TRUE(may || answer.status == refused) << request << ": " << answer.status;
     EXPECT_FALSE(may && role != Role::kNone && answer.status == 403) << request;
-    EXPECT_LT(answer.status, 500) << request << ": " << answer.body;
   }
 
-  // Returns the column of a role. Visitors have one column for each state of the model, because
-  // only they see less in some states.
+  // Whether a GET request of an existing route needs the file of the scan's model.
+  bool needs_file(std::string_view route, std::string_view target) const {
+    if (route == "/api/v1/chunks/{sha256}") return true;
+    const bool is_of_model = route.find("/models/{id}") != route.npos ||
+                             route.starts_with("/api/v1/iiif/") || route.ends_with("/oembed");
+    return is_of_model && !route.ends_with("/stream") && target.find(world_.model) != target.npos;
+  }
+
+  // Returns the name of the role's column. Visitors have one column for each state of the model,
+  // because only visitors see less in some states.
   std::string column(Role role) const {
     const char* name = kRoles[static_cast<std::size_t>(role)];
     return role == Role::kNone ? fmt::format("{}; the model is {}", name, state_.name) : name;

@@ -67,7 +67,7 @@ TEST_F(VisitsApi, AVisitLeavesNoLineInTheAuditLog) {
   EXPECT_EQ(report("?seconds=40&level=0"), 204);
   EXPECT_EQ(report("?seconds=-1&level=0"), 400);
   ask(api_, viewer_, "DELETE");  // a change that is audited, though it is refused
-  ask(api_);                     // once this request is answered, the log holds the earlier ones
+  ask(api_);                     // once this request is answered, all earlier ones are logged
   ask(api_);
   EXPECT_THAT(server_.events(), HasSubstr("event=audit"));
   EXPECT_THAT(server_.events(), Not(HasSubstr("/visits")));

@@ -23,7 +23,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Waits as a slow client does between two bytes.
+// Waits for 20 ms, as a slow client does between two bytes.
 void pause() {
   ::poll(nullptr, 0, 20);
 }
@@ -87,7 +87,7 @@ TEST_F(SlowReaderTest, WhoTakesAnAnswerTooSlowlyIsCutOff) {
   client.send("GET /api/v1/models/" + large + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n");
   EXPECT_THROW(
       for (int i = 0; i < 300; ++i) {
-        client.read_exactly(100'000);  // each read comes within the idle timeout
+        client.read_exactly(100'000);  // the pauses between reads are shorter than the idle timeout
         pause();
       },
       std::runtime_error);
@@ -134,7 +134,7 @@ TEST_F(AttackTest, WhoTakesAStreamAByteAtATimeCostsLittleAndIsCutOff) {
 TEST_F(AttackTest, HalfOpenConnectionsCostLittleAndGo) {
   constexpr std::size_t kConnections = 400;
 #ifdef VITRINE_SANITISED
-  constexpr std::size_t kBytesEach = 100'000;  // includes memory that the sanitizer needs
+  constexpr std::size_t kBytesEach = 100'000;  // the sanitizer needs more memory per connection
 #else
   constexpr std::size_t kBytesEach = 20'000;
 #endif
@@ -216,7 +216,8 @@ TEST_F(AttackTest, GuessingTokensIsSlowedDownWhileTheirOwnersGetOn) {
   EXPECT_EQ(client.get("/api/v1/jobs", own).status, 200);
 }
 
-// Requests that cost the attacker little and are answered from memory.
+// These requests cost the attacker little, and the daemon answers them from memory. Their log lines
+// must stay short.
 TEST_F(AttackTest, PipelinedUnknownPathsFillNoLog) {
   constexpr int kRequests = 2'000;
   constexpr std::size_t kTarget = 4'000;

@@ -28,7 +28,7 @@ class BombTest : public ::testing::Test {
     return client.receive();
   }
 
-  // Starts a job that builds a model from `file`. Returns the job after it has ended.
+  // Starts a job that builds a model from `file`. Waits until the job has ended, and returns it.
   Json made_of(const std::string& file) {
     const std::string length = std::to_string(file.size());
     const std::string upload =
@@ -61,7 +61,7 @@ class BombTest : public ::testing::Test {
   Daemon daemon{folder.path()};
 
  private:
-  // Waits until `job` has ended, which also ends its stream of events. Returns the job.
+  // Waits until the stream of events ends, which means that `job` has ended. Returns the job.
   Json ended(const std::string& job) {
     HttpClient client(daemon.port());
     client.send("GET " + job + "/events HTTP/1.1\r\nHost: a\r\n" + bearer + "\r\n");
@@ -109,7 +109,7 @@ std::string glb(std::string json, std::string binary) {
          std::string("BIN\0", 4) + binary;
 }
 
-// The file has 2 MB and expands to 100,000 instances of 3,000 triangles.
+// A file of 2 MB that expands to 100,000 instances of 3,000 triangles.
 TEST_F(BombTest, AFileThatRefersToItselfOverAndOverIsRefused) {
   constexpr std::size_t kIndices = 9'000, kInstances = 100'000;
   std::string binary(36 + 2 * kIndices, '\0');

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests connections that take too long, and more connections than the daemon has room for.
+// Tests connections that take too long, and clients that open more connections than the daemon
+// accepts.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -47,7 +48,7 @@ TEST_F(CutOffTest, ABodyThatNobodyTakes) {
 
 TEST_F(CutOffTest, AnAnswerThatNobodyTakes) {
   HttpClient client(daemon.port());
-  std::string requests;  // their answers are far larger than the sockets' buffers
+  std::string requests;  // the responses are far larger than the sockets' buffers
   for (int i = 0; i < 2000; ++i) {
     requests += "GET /api/v1/models/" + id + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n";
   }
@@ -62,8 +63,8 @@ TEST_F(CutOffTest, AWebSocketWhosePeerDoesNotAnswerPings) {
   EXPECT_THROW(while (true) client.receive(), std::runtime_error);
 }
 
-// Keeps this process's limit of open files low until it is destroyed. A daemon that is started
-// meanwhile inherits the limit.
+// Lowers this process's limit of open files. A daemon that is started before the destructor runs
+// inherits the limit.
 class FewDescriptors {
  public:
   FewDescriptors() {

@@ -215,11 +215,10 @@ TEST_F(DaemonTest, MetricsTellWhatTheOperatorAsksAndDoNotGrowWithWhatVisitorsAsk
   };
   const std::string text = http_get(daemon.admin_port(), "/metrics").body;
   for (const char* sample :
-       {"\nvitrine_build_info{version=\"", "\nvitrine_streams 0\n",
-        "\nvitrine_exports_made_total 0\n", "\nvitrine_export_cache_bytes 0\n",
-        "\nvitrine_jobs{state=\"queued\"} 0\n", "\nvitrine_jobs{state=\"cancelled\"} 0\n",
-        "\nvitrine_data_free_bytes ", "\nvitrine_disk_nearly_full 0\n",
-        "\nvitrine_refusals_not_logged_total 0\n"}) {
+       {"\nvitrine_build_info{version=\"", "\nvitrine_streams 0\n", "\nvitrine_exports_made_total ",
+        "\nvitrine_export_cache_bytes 0\n", "\nvitrine_jobs{state=\"queued\"} 0\n",
+        "\nvitrine_jobs{state=\"cancelled\"} 0\n", "\nvitrine_data_free_bytes ",
+        "\nvitrine_disk_nearly_full 0\n", "\nvitrine_refusals_not_logged_total 0\n"}) {
     EXPECT_THAT(text, HasSubstr(sample));
   }
   const auto before = lines();
@@ -232,8 +231,8 @@ TEST_F(DaemonTest, EveryReadIsAnEntity) {
   const std::string model = "/api/v1/models/" + id;
   for (const std::string& target :
        {std::string("/api/v1/models"), model, model + "/manifest", model + "/head",
-        model + "/file.pmesh", chunk_url(), "/api/v1/iiif/" + id + "/manifest.json",
-        std::string("/api/v1/openapi.json")}) {
+        model + "/file.pmesh", model + "/tileset.json", chunk_url(),
+        "/api/v1/iiif/" + id + "/manifest.json", std::string("/api/v1/openapi.json")}) {
     const HttpAnswer whole = get(target);
     const std::string tag = whole.field("etag");
     ASSERT_EQ(whole.status, 200) << target;
@@ -250,7 +249,7 @@ TEST_F(DaemonTest, EveryReadIsAnEntity) {
   }
 }
 
-// A folder with one model, whose file is damaged before the daemon starts.
+// A data folder with one model. The model's file is damaged before the daemon starts.
 class DamagedObjectTest : public ::testing::Test {
  protected:
   DamagedObjectTest() {
@@ -304,13 +303,14 @@ std::size_t count_open_objects(pid_t process) {
   return count;
 }
 
-// The daemon must close the files even if no client sends a request after the changes.
+// The daemon must close the files soon, even if no client sends a request after the changes.
 TEST(CachedFiles, OfModelsThatWereWithdrawnReplacedOrRemovedAreClosed) {
   ServedFolder folder;
   std::vector<std::string> ids;
   for (const char* chunk : {"one", "two", "three"})
     ids.push_back(folder.publish(chunk, tiny_pmesh("a base", chunk)));
-  Daemon daemon(folder.path(), {"--scrub-rate", "0"});
+  // Without an export cache, the daemon makes no posters. Only the requests below then open models.
+  Daemon daemon(folder.path(), {"--scrub-rate", "0", "--export-cache", "0"});
   for (const std::string& id : ids)
     EXPECT_EQ(http_get(daemon.port(), "/api/v1/models/" + id + "/file.pmesh").status, 200);
   WebSocketClient stream(daemon.port(), "/api/v1/models/" + ids[0] + "/stream", "pmesh.v1");
@@ -359,6 +359,23 @@ TEST(Disk, HasNoRoomForWhatOtherOpenUploadsWillNeed) {
   EXPECT_EQ(announce(), 201);
   EXPECT_EQ(announce(), 507);
   daemon.wait_for_line("no room");
+}
+
+TEST(Disk, KeepsHalfOfItsRoomFromATokenWithSeveralUploads) {
+  ServedFolder folder;
+  Daemon daemon(folder.path(), {"--disk-reserve", "0", "--max-upload", "9000000000000000000"});
+  const std::uintmax_t most = std::filesystem::space(folder.path()).available * 3 / 10;
+  const auto announce = [&](const std::string& token) {
+    const std::string create =
+        "Authorization: Bearer " + token +
+        "\r\nTus-Resumable: 1.0.0\r\nUpload-Length: " + std::to_string(most) +
+        "\r\nContent-Length: 0\r\n";
+    return http_get(daemon.port(), "/api/v1/uploads", create, "POST").status;
+  };
+  const std::string first = folder.token(Role::kOperator), other = folder.token(Role::kOperator);
+  EXPECT_EQ(announce(first), 201);
+  EXPECT_EQ(announce(first), 429) << "two would take six tenths";
+  EXPECT_EQ(announce(other), 201);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests for which host names the daemon answers requests. If an attacker's DNS server resolves
-// another name to the daemon's address, requests under that name must be refused (DNS rebinding).
+// Tests for which host names the daemon answers requests. An attacker's DNS server may resolve
+// another name to the daemon's address (DNS rebinding). The daemon must refuse requests under that
+// name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

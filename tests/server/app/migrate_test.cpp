@@ -24,7 +24,7 @@ ModelId publish_at(Installation& installation, const std::string& title) {
       .id;
 }
 
-// The content of a catalogue, as read through its functions.
+// The contents of a catalogue, as its functions return them.
 struct Told {
   std::vector<std::string> models;
   std::vector<TokenId> tokens;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "server/store/quota.h"
 #include "support/process/daemon.h"
 #include "support/process/http_client.h"
 #include "support/product_names.h"
@@ -84,14 +85,19 @@ TEST_F(Reload, FewerConnectionsAndLessPatienceHoldAtOnceAndWhoIsThereStays) {
   EXPECT_THAT(reload(), HasSubstr("idle-timeout"));
   HttpClient slow(daemon->port());
   slow.send("GET / HTTP/1.1\r\n");
-  // With the old timeout, the daemon would keep the connection open for longer than the client
-  // waits for its end.
+  // The old timeout is longer than the time that is_closed() waits for the end of the connection.
   EXPECT_TRUE(slow.is_closed());
+}
+
+TEST_F(Reload, TheDiskReserveIsStatedToProgramsThatPublishWithoutTheDaemon) {
+  write("public-url = https://one.example\ndisk-reserve = 5000\n");
+  EXPECT_THAT(reload(), HasSubstr("new: disk-reserve"));
+  EXPECT_EQ(read_limits(served.path()).value().reserve, 5000u);
 }
 
 TEST_F(Reload, ARotatedLogIsOpenedAnew) {
   HttpClient visitor(daemon->port());
-  // The log contains a request once the next request on the same connection is answered.
+  // A request is in the log once the next request on the same connection has been answered.
   const auto visit = [&](const std::string& word) {
     EXPECT_EQ(visitor.get("/api/v1/models?q=" + word).status, 200);
     EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
@@ -121,6 +127,32 @@ TEST_F(Reload, ALogThatIsFullIsReplaced) {
     EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
   EXPECT_GE(std::filesystem::file_size(old), 10'000u);
   EXPECT_LT(daemon->access_log().size(), 10'000u);
+}
+
+// The request rate does not limit responses from memory, so only the log's own limit bounds the
+// log.
+TEST_F(Reload, ALogStaysBoundedHoweverFastResponsesFromMemoryAreSent) {
+  constexpr std::uintmax_t kMost = 100'000, kBatch = 64 * 1024 + 500;
+  write("public-url = https://one.example\naccess-log-size = 100000\n");
+  reload();
+  const std::string chunk = "/api/v1/chunks/" + to_hex(served_pmesh().manifest.chunks[0].sha256);
+  EXPECT_EQ(http_get(daemon->port(), chunk).status, 200);
+  std::string requests;
+  for (int i = 0; i < 500; ++i)
+    requests += "HEAD " + chunk + "?" + std::string(300, 'x') + " HTTP/1.1\r\nHost: a\r\n\r\n";
+  const auto log = served.path() / "access.log", old = served.path() / "access.log.old";
+  HttpClient visitor(daemon->port());
+  for (int round = 0; round < 10; ++round) {
+    visitor.send(requests);
+    for (int i = 0; i < 500; ++i)
+      visitor.receive(/*with_body=*/false);
+    for (const auto& file : {log, old}) {
+      std::error_code missing;  // set while the daemon replaces the file
+      const auto size = std::filesystem::file_size(file, missing);
+      EXPECT_TRUE(missing || size < kMost + 2 * kBatch) << size;
+    }
+  }
+  EXPECT_TRUE(std::filesystem::exists(old));
 }
 
 TEST_F(Reload, ALogIsReopenedThoughTheConfigurationHasAFault) {

@@ -132,12 +132,20 @@ TEST(RemoteInstallation, ADamagedObjectOfTheBucketIsFoundAndPutBackFromAFolder) 
 TEST(RemoteInstallation, TheCommandMigratesAnInstallation) {
   const RemoteInstallation remote;
   const TemporaryFolder folder;
-  publish_at({.folder = folder.path()}, "vase");
+  const auto id = ModelId::parse(publish_at({.folder = folder.path()}, "vase")).value();
+  const auto catalogue_of = [](const InstallationPlace& place) {
+    return open_installation(place).value().catalogue;
+  };
+  ModelRecord model = catalogue_of({.folder = folder.path()})->find(id).value().value();
+  model.repairs = "1 duplicate face dropped";
+  ASSERT_TRUE(catalogue_of({.folder = folder.path()})->update(model, std::nullopt));
   const auto moved = run_program(
       {kVitrine, "migrate", "--from", folder.path().string(), "--to", remote.file(), "--json"});
   EXPECT_EQ(moved.exit_code, 0) << moved.errors;
   EXPECT_THAT(moved.output, HasSubstr("\"models\":1"));
-  EXPECT_EQ(open_installation(remote.place()).value().catalogue->files().value().size(), 1u);
+  const auto catalogue = catalogue_of(remote.place());
+  EXPECT_EQ(catalogue->files().value().size(), 1u);
+  EXPECT_EQ(catalogue->find(id).value().value().repairs, model.repairs);
 }
 
 }  // namespace

@@ -14,8 +14,6 @@
 namespace vitrine::test {
 namespace {
 
-using Kind = WebSocketFrame::Kind;
-
 constexpr std::uint8_t kFin = 0x80, kContinuation = 0, kText = 1, kClose = 8, kPing = 9, kPong = 10;
 
 class Rfc6455Test : public ::testing::Test {
@@ -35,9 +33,9 @@ class Rfc6455Test : public ::testing::Test {
   }
 
   // A client that has received the server's greeting.
-  struct Connection : WebSocketClient {
-    Connection() : WebSocketClient(daemon_->port(), url_, "pmesh.v1") {
-      EXPECT_EQ(receive().kind, Kind::kText);
+  struct GreetedClient : WebSocketClient {
+    GreetedClient() : WebSocketClient(daemon_->port(), url_, "pmesh.v1") {
+      EXPECT_EQ(receive().kind, WebSocketFrame::kText);
     }
   };
 
@@ -48,24 +46,24 @@ class Rfc6455Test : public ::testing::Test {
     return text;
   }
 
-  // Expects that the server has found no fault and still answers pings.
+  // Expects that the server has found no fault in the client's frames and still answers pings.
   static void expect_alive(WebSocketClient& client) {
     client.send(kFin | kPing, "still there");
     const WebSocketFrame answer = client.receive();
-    EXPECT_EQ(answer.kind, Kind::kPong) << answer.payload;
+    EXPECT_EQ(answer.kind, WebSocketFrame::kPong) << answer.payload;
     EXPECT_EQ(answer.payload, "still there");
   }
 
   // Expects that the next frame closes the connection with `code`.
   static void expect_close(WebSocketClient& client, int code) {
     const WebSocketFrame frame = client.receive();
-    ASSERT_EQ(frame.kind, Kind::kClose);
+    ASSERT_EQ(frame.kind, WebSocketFrame::kClose);
     EXPECT_EQ(frame.close_code(), code) << frame.payload.substr(2);
     EXPECT_TRUE(client.is_closed());
   }
   // Sends `bytes` on a new connection. Expects that the server closes it with `code`.
   static void expect_fault(const std::string& bytes, int code) {
-    Connection client;
+    GreetedClient client;
     client.send_raw(bytes);
     expect_close(client, code);
   }
@@ -81,7 +79,7 @@ class Rfc6455Test : public ::testing::Test {
 };
 
 TEST_F(Rfc6455Test, TakesPayloadsOfEveryLengthField) {
-  Connection client;
+  GreetedClient client;
   for (const std::size_t length : {24u, 125u, 126u, 127u, 128u, 65535u, 65536u}) {
     client.send_text(message(length));
     expect_alive(client);
@@ -89,7 +87,7 @@ TEST_F(Rfc6455Test, TakesPayloadsOfEveryLengthField) {
 }
 
 TEST_F(Rfc6455Test, TakesAFrameByteByByte) {
-  Connection client;
+  GreetedClient client;
   const std::string text =
       masked_frame(kFin | kText, message(24)) + masked_frame(kFin | kPing, "p");
   for (const char byte : text)
@@ -98,7 +96,7 @@ TEST_F(Rfc6455Test, TakesAFrameByteByByte) {
 }
 
 TEST_F(Rfc6455Test, Unmasks) {
-  Connection client;
+  GreetedClient client;
   client.send_raw({"\x89\x84\x01\x02\x03\x04\x60\x60\x60\x60", 10});
   EXPECT_EQ(client.receive().payload, "abcd");
 }
@@ -113,24 +111,24 @@ TEST_F(Rfc6455Test, RefusesALengthInALongerFieldThanItNeeds) {
 }
 
 TEST_F(Rfc6455Test, AnswersPingsWithTheirPayload) {
-  Connection client;
+  GreetedClient client;
   for (const std::string& payload : {std::string(), std::string("hello"),
                                      std::string("\x00\xff\xfe\xfd", 4), std::string(125, 'p')}) {
     client.send(kFin | kPing, payload);
     const WebSocketFrame answer = client.receive();
-    EXPECT_EQ(answer.kind, Kind::kPong);
+    EXPECT_EQ(answer.kind, WebSocketFrame::kPong);
     EXPECT_EQ(answer.payload, payload);
   }
 }
 
 TEST_F(Rfc6455Test, RefusesAPingThatIsTooLong) {
-  Connection client;
+  GreetedClient client;
   client.send(kFin | kPing, std::string(126, 'p'));
   expect_close(client, 1002);
 }
 
 TEST_F(Rfc6455Test, IgnoresPongsThatItHasNotAskedFor) {
-  Connection client;
+  GreetedClient client;
   client.send(kFin | kPong, "");
   client.send(kFin | kPong, "unasked");
   expect_alive(client);
@@ -149,7 +147,7 @@ TEST_F(Rfc6455Test, RefusesReservedOpcodes) {
 }
 
 TEST_F(Rfc6455Test, JoinsFragmentsAndAnswersPingsInBetween) {
-  Connection client;
+  GreetedClient client;
   const std::string text = message(24);
   client.send(kText, text.substr(0, 10));
   expect_alive(client);
@@ -160,7 +158,7 @@ TEST_F(Rfc6455Test, JoinsFragmentsAndAnswersPingsInBetween) {
 }
 
 TEST_F(Rfc6455Test, JoinsAFragmentForEachByte) {
-  Connection client;
+  GreetedClient client;
   const std::string text = message(200);
   client.send(kText, text.substr(0, 1));
   for (std::size_t i = 1; i < text.size(); ++i)
@@ -179,7 +177,7 @@ TEST_F(Rfc6455Test, RefusesFragmentsOutOfPlace) {
 }
 
 TEST_F(Rfc6455Test, TakesUtf8AndNothingElse) {
-  Connection client;
+  GreetedClient client;
   client.send_text("{\"type\":\"ack\",\"bytes\":1,\"note\":\"κόσμε \xf4\x8f\xbf\xbf\"}");
   client.send(kText, "{\"type\":\"ack\",\"bytes\":1,\"note\":\"\xce");
   client.send(kFin | kContinuation, "\xba\"}");  // one character split over two fragments
@@ -192,23 +190,23 @@ TEST_F(Rfc6455Test, TakesUtf8AndNothingElse) {
 }
 
 TEST_F(Rfc6455Test, AnswersAClose) {
-  Connection client;
+  GreetedClient client;
   client.send(kFin | kClose, "");
-  EXPECT_EQ(client.receive().kind, Kind::kClose);
+  EXPECT_EQ(client.receive().kind, WebSocketFrame::kClose);
   EXPECT_TRUE(client.is_closed());
 }
 
 TEST_F(Rfc6455Test, AnswersACloseWithItsCode) {
   for (const int number :
        {1000, 1001, 1002, 1003, 1007, 1008, 1009, 1010, 1011, 3000, 3999, 4000, 4999}) {
-    Connection client;
+    GreetedClient client;
     client.send(kFin | kClose, code(number) + std::string(123, 'r'));
     expect_close(client, number);
   }
 }
 
 TEST_F(Rfc6455Test, IgnoresWhatFollowsAClose) {
-  Connection client;
+  GreetedClient client;
   client.send_raw(masked_frame(kFin | kClose, code(1000)) + masked_frame(kFin | kPing, "late"));
   expect_close(client, 1000);
 }
@@ -217,16 +215,16 @@ TEST_F(Rfc6455Test, RefusesCloseFramesThatAreNone) {
   expect_fault(masked_frame(kFin | kClose, "x"), 1002);
   for (const int number : {0, 999, 1004, 1005, 1006, 1016, 1100, 2000, 2999})
     expect_fault(masked_frame(kFin | kClose, code(number)), 1002);
-  Connection client;
+  GreetedClient client;
   client.send(kFin | kClose, code(1000) + std::string(124, 'r'));
   expect_close(client, 1002);
 }
 
 TEST_F(Rfc6455Test, RefusesMessagesThatAreTooLongHoweverTheyCome) {
-  Connection whole;
+  GreetedClient whole;
   whole.send_text(message(64 * 1024 + 1));
   expect_close(whole, 1009);
-  Connection parts;
+  GreetedClient parts;
   parts.send(kText, message(60'000));
   parts.send(kFin | kContinuation, std::string(6'000, ' '));
   expect_close(parts, 1009);

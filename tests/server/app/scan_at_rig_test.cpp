@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests a complete scan. The daemon drives a scanner that vitrine-rig simulates, over the real
-// protocols, from the calibration to a model that visitors can open.
+// Tests a complete scan, from the calibration to a model that visitors can open. The daemon drives
+// a scanner that vitrine-rig simulates, over the real protocols.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -68,8 +68,8 @@ class DaemonAtRig : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  // Returns the command line of vitrine-rig, which runs the script below. The script restarts the
-  // daemon whenever the daemon ends.
+  // Returns the command line of vitrine-rig. vitrine-rig runs the script below, which restarts the
+  // daemon whenever it ends.
   std::vector<std::string> words() const {
     std::vector<std::string> all = {VITRINE_BIN_DIR "/vitrine-rig",
                                     "--mesh",
@@ -140,7 +140,7 @@ class DaemonAtRig : public testing::Test {
     return ask("GET", "/models/" + scan["model"].get<std::string>() + "/export.ply").body;
   }
 
-  // Returns the true state of the rig, not the state that the daemon believes.
+  // Asks the rig itself for its state, which may differ from the state that the daemon assumes.
   RigLook look() const {
     const json config = json::parse(text(path("rig.json")));
     return look_at_rig(config["rig"]["socket"].get<std::string>());

@@ -286,9 +286,9 @@ TEST(Stop, SigtermEndsIdleConnectionsAndTheDaemonWithACleanLog) {
 }
 
 TEST(Stop, FinishesATransferThatIsUnderWay) {
-  // The answer is larger than the sockets' buffers, and more requests follow than the daemon reads
-  // ahead. Closing a socket with unread requests would reset the connection and lose the end of the
-  // answer.
+  // The response is larger than the sockets' buffers, and the client sends more requests than the
+  // daemon reads ahead. If the daemon closed a socket with unread requests, this would reset the
+  // connection and lose the end of the response.
   std::string chunk;
   chunk.resize(32'000'000, 'c');
   const TinyPmesh large = tiny_pmesh("a base mesh", chunk);

@@ -35,7 +35,7 @@ class StreamTest : public ::testing::Test {
     const std::string target = "/api/v1/models/" + id + "/unpublish";
     EXPECT_EQ(http_get(daemon.port(), target, operator_, "POST").status, 200);
   }
-  // Returns the JSON of the next frame, which must be a text frame.
+  // Receives a text frame and returns its JSON.
   static Json told(WebSocketClient& client) {
     WebSocketFrame frame = client.receive();
     EXPECT_EQ(frame.kind, WebSocketFrame::kText);

@@ -145,7 +145,8 @@ TEST(Limits, WhoAsksTooOftenIsToldWhenToComeBackAndOthersAreServed) {
   EXPECT_EQ(answer.field("retry-after"), "1");
   EXPECT_EQ(client.get("/api/v1/openapi.json", from("192.0.2.7")).status, 200)
       << "it comes from memory";
-  // On a slow machine, the address may meanwhile have earned another request.
+  // On a slow machine, the rate limit may by now allow the address another request. The test
+  // therefore tries several times.
   bool is_refused = false;
   for (int i = 0; i < 10 && !is_refused; ++i)
     is_refused = client.get("/nothing", from("192.0.2.7")).status == 429;
@@ -189,7 +190,7 @@ TEST(Limits, ATokenHasOneBudgetWhereverItIsUsed) {
   const Daemon daemon(folder.path(), {"--request-rate", "1", "--trusted-proxies", "127.0.0.1"});
   HttpClient client(daemon.port());
   HttpAnswer answer;
-  for (int i = 0; i < 200 && answer.status != 429; ++i)  // each request comes from another address
+  for (int i = 0; i < 200 && answer.status != 429; ++i)  // each request has another client address
     answer = client.get(model, token + from("192.0.2." + std::to_string(i)));
   EXPECT_EQ(answer.status, 429);
   EXPECT_EQ(client.get(model, other + from("192.0.2.0")).status, 200);
@@ -207,8 +208,8 @@ TEST(Limits, AllOfAnIpv6NetworkShareOnesBudget) {
   EXPECT_EQ(client.get(model, from("2001:db8:0:1::")).status, 200);
 }
 
-// The test sends at most five HTTP requests, which are within the limit. One of them is refused
-// only if the messages on the stream use up the same budget.
+// The test sends at most five HTTP requests, fewer than the limit. The daemon can refuse one of
+// them only if the messages on the stream count towards the same limit.
 TEST(Limits, ModelsThatAreOpenedOnAStreamAreOfItsNetworksBudget) {
   ServedFolder folder;
   const std::string model = "/api/v1/models/" + folder.publish("A small bust");
@@ -243,7 +244,7 @@ TEST(Limits, AStreamBehindAProxyCountsForItsVisitor) {
   }
   EXPECT_TRUE(first->is_closed());
   first.reset();
-  // Retries until the daemon has noticed the end of the first connection.
+  // Retries until the daemon has noticed that the first connection has ended.
   for (bool is_in = false; !is_in;) {
     try {
       open("2001:db8::3");

@@ -41,7 +41,7 @@ TEST(WebhooksOfADaemon, WhatAnotherHasNotToldIsToldAtTheStart) {
     std::this_thread::yield();
 }
 
-// A daemon that publishes uploads and calls a webhook when a job has ended.
+// A daemon that makes models from uploads. It calls a webhook when a job has ended.
 class OrderedModel : public testing::Test {
  protected:
   HttpAnswer post(const std::string& path, const std::string& fields, const std::string& body) {

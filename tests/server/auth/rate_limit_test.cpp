@@ -25,7 +25,7 @@ TEST(RateLimit, EachHasABudgetOfItsOwn) {
   for (int i = 0; i < 10; ++i)
     limit.take("192.0.2.1", kStart);
   EXPECT_GT(limit.take("192.0.2.1", kStart), seconds(0));
-  int allowed = 0;  // may be below 3, because addresses may share a budget by chance
+  int allowed = 0;  // may be below 3, because two addresses can share a budget by chance
   for (const char* other : {"192.0.2.2", "192.0.2.3", "192.0.2.4"})
     allowed += limit.take(other, kStart) == seconds(0) ? 1 : 0;
   EXPECT_GE(allowed, 2);

@@ -29,7 +29,7 @@ TEST_F(ThrottleTest, TenFailuresAMinuteAreAllowed) {
 
 TEST_F(ThrottleTest, OthersAreLeftAlone) {
   fail_ten_times("192.0.2.1");
-  int throttled = 0;  // may be above 0, because the hashes of addresses may collide
+  int throttled = 0;  // may be above 0, because the hashes of two addresses can collide
   for (int i = 0; i < 100; ++i)
     throttled += throttle_.failed("2001:db8::" + std::to_string(i), start_) > seconds(0) ? 1 : 0;
   EXPECT_LE(throttled, 3);

@@ -48,13 +48,13 @@ std::vector<std::string> names_in(const fs::path& folder) {
 class BackupTest : public ::testing::Test {
  protected:
   ModelId publish(const std::string& title, ModelState state = ModelState::kPublished) {
-    const auto done = server::publish(*installation.store, *installation.catalogue,
-                                      tiny_pmesh("base of " + title, "chunk").bytes,
-                                      {.title = title}, {.state = state});
+    const auto done = server::publish(
+        *installation.store, *installation.catalogue, tiny_pmesh("base of " + title, "chunk").bytes,
+        {.title = title}, {.state = state, .repairs = "1 face dropped"});
     if (!done) throw std::runtime_error(done.error().message);
     return done->id;
   }
-  // Publishes a model of which only the coarsest level is public. Returns its ID.
+  // Publishes a model, but only its coarsest level. Returns the model's ID.
   ModelId publish_capped(const std::string& title) {
     ModelRecord model = installation.catalogue->find(publish(title)).value().value();
     model.public_part = PublicPart{.max_level = 0};
@@ -64,7 +64,8 @@ class BackupTest : public ::testing::Test {
   }
   fs::path path(const std::string& name) const { return folder.path() / name; }
 
-  // Restores the backup, which must fail and leave no files behind. Returns the error.
+  // Tries to restore the backup. Expects that this fails and leaves no files behind. Returns the
+  // error.
   std::string fault_of_restoring(const fs::path& backup) const {
     const auto done = restore(backup, path("again"));
     EXPECT_FALSE(done);
@@ -104,6 +105,7 @@ TEST_F(BackupTest, TheRestoredInstallationEqualsTheOriginal) {
     const ModelRecord after = again.catalogue->find(id).value().value();
     EXPECT_EQ(after.title, before.title);
     EXPECT_EQ(after.state, before.state);
+    EXPECT_EQ(after.repairs, "1 face dropped");
     EXPECT_EQ(bytes_of(again, after), bytes_of(installation, before));
     EXPECT_EQ(bytes_of(again, public_view(after)), bytes_of(installation, public_view(before)));
   }
@@ -263,7 +265,7 @@ TEST_F(BackupTest, AScanFileThatCannotBeReadIsListed) {
   fs::create_directories(data / "scans/one");
   write(data / "scans/one/profiles", "measured");
   write(data / "scans/one/steps", "");
-  fs::resize_file(data / "scans/one/steps", TarReader::kMaxFile + 1);  // more than an entry takes
+  fs::resize_file(data / "scans/one/steps", TarReader::kMaxFile + 1);  // too large for a backup
   const auto saved = back_up(data, tar);
   ASSERT_TRUE(saved) << saved.error().message;
   EXPECT_THAT(saved->damaged, ElementsAre("scans/one/steps cannot be read"));

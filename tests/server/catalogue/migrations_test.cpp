@@ -5,14 +5,26 @@
 #include <fstream>
 
 #include "server/catalogue/sqlite_catalogue.h"
-#include "server/catalogue/sqlite_jobs.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::server {
 namespace {
 
-// SQL that turns the newest tables into those of the version before daemons could claim jobs.
+// SQL that changes the newest tables back to those of the version before presentations.
+const std::string kBeforePresentations =
+    "DROP INDEX model_guard; ALTER TABLE model DROP COLUMN presentation;"
+    "CREATE INDEX model_guard ON model(title);";
+
+// SQL that changes the newest tables back to those of the version before full-text search.
+const std::string kBeforeSearch =
+    kBeforePresentations +
+    "DROP TRIGGER text_added; DROP TRIGGER text_changes; DROP TRIGGER text_changed;"
+    "DROP TRIGGER text_removed; DROP VIEW model_text; DROP VIEW model_facet; DROP VIEW model_entry;"
+    "DROP TABLE facet_value; DROP TABLE model_index; DROP TABLE model_words;";
+
+// SQL that changes the newest tables back to those of the version before daemons could claim jobs.
 const std::string kBeforeClaims =
+    kBeforeSearch +
     "DROP INDEX model_guard; DROP INDEX job_guard; DROP INDEX scan_guard; DROP INDEX token_guard;"
     "DROP INDEX idempotency_guard; DROP INDEX job_untold; DROP INDEX job_of_state; DROP TABLE "
     "revision; DROP TABLE scanner; DROP TABLE visit;"
@@ -27,7 +39,8 @@ const std::string kBeforeClaims =
     "ALTER TABLE model DROP COLUMN texture_bytes;"
     "ALTER TABLE model DROP COLUMN public_texture_count;"
     "ALTER TABLE model DROP COLUMN public_texture_side;"
-    "ALTER TABLE model DROP COLUMN public_texture_bytes;";
+    "ALTER TABLE model DROP COLUMN public_texture_bytes;"
+    "ALTER TABLE model DROP COLUMN repairs;";
 
 class Migrations : public testing::Test {
  protected:
@@ -37,7 +50,8 @@ class Migrations : public testing::Test {
   void run(const std::string& sql) {
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
-    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(database);
     sqlite3_close(database);
   }
 };
@@ -73,6 +87,48 @@ TEST_F(Migrations, JobsThatEndedBeforeWebhooksExistedCallNone) {
       "ALTER TABLE job DROP COLUMN attempts; ALTER TABLE job DROP COLUMN told;"
       "DELETE FROM migration WHERE version >= 6");
   EXPECT_TRUE(open_sqlite_jobs(file_).value()->unnotified_jobs().value().empty());
+}
+
+TEST_F(Migrations, RepairsOfModelsFromBeforeTheyWereKeptAreNotKnown) {
+  ModelRecord model;
+  model.id = ModelId::generate();
+  model.title = "Bust";
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  run(kBeforeSearch +
+      "DROP INDEX model_guard; ALTER TABLE model DROP COLUMN repairs;"
+      "CREATE INDEX model_guard ON model(title);"
+      "DELETE FROM migration WHERE version >= 16");
+  const auto catalogue = open_sqlite_catalogue(file_).value();
+  ModelRecord found = catalogue->find(model.id).value().value();
+  EXPECT_EQ(found.title, "Bust");
+  EXPECT_EQ(found.repairs, "");
+  found.repairs = "1 duplicate face dropped";
+  ASSERT_TRUE(catalogue->update(found, std::nullopt));
+  EXPECT_EQ(catalogue->find(model.id).value()->repairs, found.repairs);
+}
+
+TEST_F(Migrations, ModelsFromBeforeTheFullTextSearchAreFound) {
+  ModelRecord model{.id = ModelId::generate(), .state = ModelState::kPublished};
+  model.created = 1'700'000'000'500;
+  model.more = {{"material", "bronze; gold"}};
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  run(kBeforeSearch + "DELETE FROM migration WHERE version >= 17");
+  const auto catalogue = open_sqlite_catalogue(file_).value();
+  EXPECT_EQ(catalogue->search({.text = "bronze"}).value().models.size(), 1u);
+  EXPECT_EQ(catalogue->facets({.facets = {{"material", "gold"}}}).value().models, 1u);
+  EXPECT_EQ(catalogue->harvest({}).value().models.at(0).changed, 1'700'000'000);
+}
+
+TEST_F(Migrations, ModelsFromBeforePresentationsAreShownAsInTheirFiles) {
+  ModelRecord model{.id = ModelId::generate()};
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  run(kBeforePresentations + "DELETE FROM migration WHERE version >= 19");
+  const auto catalogue = open_sqlite_catalogue(file_).value();
+  ModelRecord found = catalogue->find(model.id).value().value();
+  EXPECT_TRUE(found.presentation.is_default());
+  found.presentation.scale = 25.4;
+  ASSERT_TRUE(catalogue->update(found, std::nullopt));
+  EXPECT_EQ(catalogue->find(model.id).value()->presentation, found.presentation);
 }
 
 TEST_F(Migrations, ContinuesWithTheTablesOfANewerVersionThatAllowsIt) {

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damages a small catalogue page by page. Each damage is found, or has changed nothing that the
-// catalogue stores, and no function of the catalogue crashes.
+// Damages a small catalogue page by page. The damage must be found, or must not have changed any
+// stored content. No function of the catalogue may crash.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <random>
 
-#include "server/catalogue/sql_visits.h"
+#include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sqlite.h"
 #include "server/catalogue/sqlite_catalogue.h"
 #include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_faults.h"
-#include "server/catalogue/sqlite_jobs.h"
 #include "support/seeds.h"
 #include "support/temporary_folder.h"
 
@@ -22,14 +21,15 @@ namespace {
 constexpr std::size_t kPageBytes = 4096;
 constexpr std::uint64_t kFlipsPerPage = 12;
 
-// All that the catalogue stores, except the progress of running jobs and scanners.
+// SQL queries for all content of the catalogue, except the progress of running jobs and scanners.
 constexpr const char* kContents[] = {
     ("SELECT quote(id)||state||'|'||created||'|'||quote(title)||quote(creator)||quote(rights)||"
      "quote(licence)||quote(unit)||quote(file)||file_bytes||'|'||head_bytes||'|'||faces||'|'||"
      "vertices||quote(more)||quote(accuracy)||version||'|'||quote(public_max_level)||"
      "quote(public_file)||quote(public_file_bytes)||quote(public_head_bytes)||quote(public_faces)||"
      "quote(public_vertices)||texture_count||'|'||texture_side||'|'||texture_bytes||'|'||"
-     "public_texture_count||'|'||public_texture_side||'|'||public_texture_bytes "
+     "public_texture_count||'|'||public_texture_side||'|'||public_texture_bytes||'|'||"
+     "quote(repairs) "
      "FROM model NOT INDEXED ORDER BY 1"),
     ("SELECT quote(sha256)||quote(model)||offset||'|'||length FROM chunk NOT INDEXED ORDER BY 1"),
     ("SELECT quote(id)||kind||'|'||state||quote(scanner)||quote(scan)||quote(model)||quote(error)||"
@@ -68,7 +68,7 @@ class SqliteDamage : public testing::Test {
 
   std::size_t pages() const { return bytes_.size() / kPageBytes; }
 
-  // Writes a damaged copy and expects that the damage is found, or has changed no content.
+  // Writes a damaged copy. Expects that the damage is found, or has changed no content.
   void expect_found_or_harmless(const std::string& damaged) {
     write(damaged);
     const auto faults = sqlite::find_faults(copy_);
@@ -96,7 +96,7 @@ class SqliteDamage : public testing::Test {
   const std::filesystem::path file_ = folder_.path() / "catalogue.sqlite",
                               copy_ = folder_.path() / "copy.sqlite";
   std::string contents_, bytes_;
-  std::size_t harmless_ = 0;  // number of damages that were not found and changed no content
+  std::size_t harmless_ = 0;  // number of copies with damage that changed no content
 
  private:
   // Adds rows to all tables.
@@ -109,6 +109,7 @@ class SqliteDamage : public testing::Test {
       model.created = 1'700'000'000'000 + i;
       model.title = "Bust " + std::to_string(i);
       model.more = {{"subject", "portraits"}};
+      model.repairs = "1 duplicate face dropped";
       model.file = Sha256{i, 1};
       if (i % 2 == 0) model.public_part = PublicPart{.max_level = 3, .file = Sha256{i, 2}};
       const ChunkPlace chunks[] = {{.chunk = Sha256{i, 3}, .offset = 100, .length = 2'000},
@@ -181,9 +182,10 @@ TEST_F(SqliteDamage, AFlippedBitIsFoundOrChangesNoContent) {
   }
 }
 
-// The table and an index both contain these values. A change of either copy is found.
+// These values are stored twice, in the table and in an index. A change of either copy must be
+// found.
 TEST_F(SqliteDamage, AFlippedBitInAValueIsFound) {
-  const std::string hash = {7, 5};  // begins the hash of token number 7, which fill() adds
+  const std::string hash = {7, 5};  // first bytes of the hash of token 7, which fill() adds
   for (const std::string& value : {std::string("Bust 7"), hash + std::string(30, '\0')}) {
     const auto first = bytes_.find(value);
     ASSERT_NE(first, bytes_.npos);

@@ -8,7 +8,7 @@
 namespace vitrine::server {
 namespace {
 
-// Keeps what is added, or fails as long as `is_away`.
+// Stores the visits that are added. add() fails while `is_away` is true.
 class FakeVisits final : public VisitCatalogue {
  public:
   Expected<void> add(const VisitsOfDays& more) override {

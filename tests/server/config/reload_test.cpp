@@ -60,5 +60,16 @@ TEST(PublicUrl, IsAnOriginAndPerhapsAPath) {
   }
 }
 
+TEST(Contact, IsAnEmailAddressAsOaiPmhDefinesIt) {
+  const Option& option = *find_option("contact");
+  Settings settings;
+  EXPECT_TRUE(option.apply(settings, "3d@museum.example"));
+  EXPECT_EQ(settings.contact, "3d@museum.example");
+  EXPECT_TRUE(option.apply(settings, ""));
+  for (const char* wrong : {"museum.example", "@museum.example", "a@museum", "a@b.", "a@.b",
+                            "a@b..c", "a b@museum.example", "a@"})
+    EXPECT_FALSE(option.apply(settings, wrong)) << wrong;
+}
+
 }  // namespace
 }  // namespace vitrine::server

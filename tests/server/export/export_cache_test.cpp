@@ -65,7 +65,8 @@ TEST(ExportCache, WhatFailsIsMadeAgain) {
 
 constexpr int kVisitors = 4;
 
-// Lets several clients request the file while it is being made. Returns the result of each.
+// Several clients request the file at the same time, while it is being made. Returns the result of
+// each request.
 template <class Make>
 std::vector<Expected<ExportCache::File>> all_at_once(ExportCache& cache, const Make& make) {
   std::latch here(kVisitors);

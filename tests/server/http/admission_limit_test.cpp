@@ -17,8 +17,27 @@ TEST(AdmissionLimit, OneAddressHasItsShareAndLeavesTheRestToOthers) {
   ASSERT_TRUE(third && fourth);
   EXPECT_EQ(limit->admit("d").error(), AdmissionLimit::Refusal::kFull);
   *first = nullptr;
-  EXPECT_TRUE(limit->admit("a"));
+  EXPECT_EQ(limit->admit("a").error(), AdmissionLimit::Refusal::kAddressFull);
   EXPECT_TRUE(limit->admit("d"));
+}
+
+TEST(AdmissionLimit, TheLastQuarterIsForAddressesWithoutATask) {
+  const auto limit = std::make_shared<AdmissionLimit>(8, 4);
+  std::vector<AdmissionLimit::Pass> taken;
+  for (const char* address : {"a", "a", "a", "a", "b", "b"})
+    taken.push_back(limit->admit(address).value());
+  EXPECT_EQ(limit->admit("b").error(), AdmissionLimit::Refusal::kAddressFull);
+  taken.push_back(limit->admit("c").value());
+  taken.push_back(limit->admit("d").value());
+  EXPECT_EQ(limit->admit("e").error(), AdmissionLimit::Refusal::kFull);
+}
+
+TEST(AdmissionLimit, OneAddressMayUseAllIfThatIsItsLimit) {
+  const auto limit = std::make_shared<AdmissionLimit>(8, 8);
+  std::vector<AdmissionLimit::Pass> taken;
+  for (int i = 0; i < 8; ++i)
+    taken.push_back(limit->admit("").value());
+  EXPECT_EQ(limit->admit("").error(), AdmissionLimit::Refusal::kFull);
 }
 
 }  // namespace

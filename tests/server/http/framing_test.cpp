@@ -15,7 +15,7 @@ struct Case {
   const char* version = "1.1";
 };
 
-// Whether both the parser and framing_fault() accept the request.
+// Returns whether both the parser and framing_fault() accept the request.
 bool accepts(const Case& test) {
   const std::string text = std::string("GET / HTTP/") + test.version + "\r\n" + test.head + "\r\n";
   beast::http::request_parser<beast::http::string_body> parser;

@@ -6,8 +6,10 @@
 
 #include <fstream>
 
+#include "server/jobs/scrubber.h"
 #include "server/store/change.h"
 #include "server/store/installation.h"
+#include "support/damage_object.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 #include "support/webhook_listener.h"
@@ -34,11 +36,11 @@ class CachePurges : public testing::Test {
                            {.title = "A"})
         ->id;
   }
-  // Returns a CachePurge for `caches` that the catalogue notifies.
+  // Returns a CachePurge for `caches`. The catalogue notifies it of hidden chunks.
   std::unique_ptr<CachePurge> purge(std::vector<std::string> caches) {
     auto made = std::make_unique<CachePurge>(std::move(caches), *installation_.catalogue, events_);
     installation_.catalogue->when_hidden(
-        [to = made.get()](std::vector<Sha256> chunks) { to->forget(std::move(chunks)); });
+        [to = made.get()](std::vector<Sha256> chunks) { to->forget_hidden(std::move(chunks)); });
     return made;
   }
   std::string events() const {
@@ -56,7 +58,7 @@ class CachePurges : public testing::Test {
 TEST_F(CachePurges, EachCacheForgetsTheChunksThatNoPublishedModelHas) {
   WebhookListener left, right;
   const ModelId withdrawn = publish(first_);
-  publish(second_);  // has the same base mesh as the first model
+  publish(second_);  // shares its base mesh with the first model
   const auto purging = purge({cache_url(left), cache_url(right)});
   ASSERT_TRUE(installation_.catalogue->set_state(withdrawn, ModelState::kDraft));
   const std::string wanted = purge_of(first_.manifest.chunks[0].sha256);
@@ -69,6 +71,25 @@ TEST_F(CachePurges, ARemovedModelIsForgottenWhole) {
   const ModelId removed = publish(first_);
   const auto purging = purge({cache_url(cache)});
   ASSERT_TRUE(remove(*installation_.store, *installation_.catalogue, removed, std::nullopt));
+  const std::string all = cache.hear("200 OK") + cache.hear("200 OK");
+  EXPECT_THAT(all, HasSubstr(purge_of(first_.manifest.base_sha256)));
+  EXPECT_THAT(all, HasSubstr(purge_of(first_.manifest.chunks[0].sha256)));
+}
+
+TEST_F(CachePurges, TheChunksOfADamagedFileAreForgottenThoughTheyArePublic) {
+  WebhookListener cache;
+  const ModelId damaged = publish(first_);
+  publish(second_);
+  const auto purging = purge({cache_url(cache)});
+  test::damage_object(folder_.path(), installation_.catalogue->find(damaged).value()->file);
+  PublishedModels models(*installation_.store, *installation_.catalogue);
+  Scrubber scrubber({.store = *installation_.store,
+                     .catalogue = *installation_.catalogue,
+                     .models = models,
+                     .catalogue_faults = [] { return std::vector<std::string>(); },
+                     .events = events_,
+                     .forget = [&](auto chunks) { purging->forget(std::move(chunks)); }});
+  ASSERT_TRUE(scrubber.check_all());
   const std::string all = cache.hear("200 OK") + cache.hear("200 OK");
   EXPECT_THAT(all, HasSubstr(purge_of(first_.manifest.base_sha256)));
   EXPECT_THAT(all, HasSubstr(purge_of(first_.manifest.chunks[0].sha256)));

@@ -5,8 +5,8 @@
 
 #include <condition_variable>
 
+#include "server/catalogue/sqlite_catalogue.h"
 #include "server/catalogue/sqlite_database.h"
-#include "server/catalogue/sqlite_jobs.h"
 #include "support/held_executor.h"
 #include "support/temporary_folder.h"
 
@@ -21,7 +21,7 @@ JobRecord job_for(const std::string& scanner, JobKind kind = JobKind::kScan) {
   return job;
 }
 
-// A task that reports when it has begun, and then waits for release or for a stop request.
+// A task that reports its start, and then waits until the test releases it or a stop is requested.
 class Gate {
  public:
   Expected<JobEnd> pass(JobRun& run) {
@@ -250,7 +250,8 @@ TEST_F(Jobs, TheSameKeyAndRequestAreTheSameJobAndAnotherRequestIsRefused) {
   const JobRecord job = job_for("a");
   ASSERT_TRUE(queue->add(job, {}, IdempotencyKey{"key", Sha256{1}}));
   const auto again = queue->add(job_for("a"), {}, IdempotencyKey{"key", Sha256{1}});
-  // The same key must give the same job, even while that job keeps the scanner busy.
+  // A repeated request with the same key must return the same job, even while that job keeps the
+  // scanner busy.
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(again->id, job.id);
   const auto other = queue->add(job_for("a"), {}, IdempotencyKey{"key", Sha256{2}});
@@ -314,9 +315,9 @@ TEST_F(Jobs, AJobAtWhichThreeDaemonsHaveDiedFails) {
     gate_.await_beginning(static_cast<int>(died));
     JobRecord left = catalogue_->find_job(killed.id).value().value();
     EXPECT_EQ(left.attempts, died + 1);
-    queue->stop();  // an orderly end, which resets `attempts`
+    queue->stop();  // an orderly stop, which resets `attempts`
     EXPECT_EQ(catalogue_->find_job(killed.id).value()->attempts, 0u);
-    ASSERT_TRUE(catalogue_->update(left));  // as if the daemon had been killed instead
+    ASSERT_TRUE(catalogue_->update(left));  // restores the state that a killed daemon would leave
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests how long a laser stays on after an operator has switched it on, and which states of laser
-// and motor a station reports.
+// Tests how long a laser stays on after an operator has switched it on. Also tests the states of
+// laser and motor that a station reports.
 #include <gtest/gtest.h>
 
 #include <future>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests how the revolution of the turntable is stored in a scan's folder.
+// Tests how a scan's folder stores the revolution of the turntable.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Returns the field of the order's only fault. Returns "" if the order has none or several.
+// Returns the name of the faulty field. Returns "" if the order has no fault or several faults.
 std::string fault_in(const Json& body) {
   const auto order = parse_scan_order(body);
   if (order || order.error().size() != 1) return "";
@@ -21,7 +21,7 @@ TEST(ScanOrder, AScannerIsEnough) {
   const auto order = parse_scan_order({{"scanner", "rig"}});
   ASSERT_TRUE(order);
   EXPECT_EQ(order->request.steps, 720);
-  const acquisition::Processing otherwise;  // the defaults of the command line
+  const acquisition::Processing otherwise;  // the default values of the command line
   EXPECT_EQ(order->request.processing.stripe, otherwise.stripe);
   EXPECT_EQ(order->request.processing.sampling.window, otherwise.sampling.window);
   EXPECT_EQ(order->request.processing.sampling.method, otherwise.sampling.method);

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <new>
 
 #include "scans_test.h"
+#include "support/forwarding/catalogue_before.h"
 #include "support/held_executor.h"
 
 namespace vitrine::server {
@@ -160,7 +162,7 @@ TEST_F(Scans, APausedScanContinuesAtItsStep) {
   ASSERT_TRUE(service_->resume(info(started.scan).entry));
   settle();
   EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
-  EXPECT_EQ(world_.steps, 12);  // no step was measured twice
+  EXPECT_EQ(world_.steps, 12);  // every step was measured exactly once
 }
 
 TEST_F(Scans, ACancelledScanKeepsItsDataAndCanStillBecomeAModel) {
@@ -288,11 +290,11 @@ TEST_F(Scans, ProgressAndCalibrationAreNotLostWhenTheDaemonWasKilled) {
   ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
   JobRecord job = *installation_.jobs->find_job(started.job).value();
   entry.step = 1, entry.calibration = 0,
-  job.progress = 0;  // a killed daemon has stored no progress
+  job.progress = 0;  // a killed daemon has not stored the progress
   ASSERT_TRUE(installation_.jobs->update(entry, {job.id, job.fence}));
   ASSERT_TRUE(installation_.jobs->update(job));
   std::promise<void> seen;
-  // Holds the job before it starts.
+  // Holds the job before it opens the scanner.
   world_.while_opening = [until = seen.get_future().share()] { until.wait(); };
   start();
   const ScanInfo scan = info(started.scan);
@@ -486,6 +488,85 @@ TEST_F(Scans, AModelPublishedAgainReplacesTheOneBefore) {
   const ModelId third = rebuild();
   EXPECT_EQ(state_of(second), ModelState::kDraft);
   EXPECT_EQ(state_of(third), ModelState::kPublished);
+}
+
+TEST_F(Scans, AnExceptionAfterTheModelWasAddedDoesNotFailTheJob) {
+  when_added_ = [](const ModelId&) { throw std::bad_alloc(); };
+  service_.reset();
+  start();
+  const auto started = begin(order_);
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_TRUE(info(started.scan).entry.model);
+}
+
+// Calls a function immediately before it adds a model. The model's file is already stored then.
+class CatalogueWithHook final : public test::CatalogueBefore {
+ public:
+  using CatalogueBefore::CatalogueBefore;
+  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks,
+                     const std::optional<JobClaim>& by) override {
+    before_adding();
+    return before_.add(model, chunks, by);
+  }
+  std::function<void()> before_adding = [] {};
+};
+
+class RacingReprocess : public Scans {
+ protected:
+  RacingReprocess() {
+    catalogue_ = &hooked_;
+    service_.reset();
+    start();
+    ScanOrder order = order_;
+    order.is_public = true;
+    scan_ = begin(order).scan;
+    settle();
+    first_ = *info(scan_).entry.model;
+  }
+  ~RacingReprocess() override { service_.reset(); }  // before hooked_ is destroyed
+  // Reprocesses the scan as the API does if a request does not say whether to publish. Runs
+  // `change` after the job has stored the new file. Returns the new model.
+  ModelRecord reprocess(const std::function<void()>& change) {
+    hooked_.before_adding = change;
+    ScanOrder order = order_;
+    order.is_public_as_before = true;
+    order.bits = 11;
+    const auto started = service_->reprocess(info(scan_).entry, order, {});
+    EXPECT_TRUE(started);
+    service_->jobs().executor("").run([] {});
+    const JobRecord job = (*service_->jobs().find(started->job))->record;
+    EXPECT_EQ(job.state, JobState::kDone);
+    EXPECT_NE(job.model, first_);
+    return **hooked_.find(*job.model);
+  }
+
+  CatalogueWithHook hooked_{*installation_.catalogue};
+  ScanId scan_;
+  ModelId first_;
+};
+
+TEST_F(RacingReprocess, PublishesTheModelIfNothingChanges) {
+  EXPECT_EQ(reprocess([] {}).state, ModelState::kPublished);
+  EXPECT_EQ(hooked_.find(first_).value()->state, ModelState::kDraft);
+}
+
+TEST_F(RacingReprocess, MakesADraftIfThePreviousModelIsWithdrawnMeanwhile) {
+  const ModelRecord made =
+      reprocess([&] { ASSERT_TRUE(hooked_.set_state(first_, ModelState::kDraft)); });
+  EXPECT_EQ(made.state, ModelState::kDraft);
+  EXPECT_EQ(hooked_.find(first_).value()->state, ModelState::kDraft);
+}
+
+TEST_F(RacingReprocess, MakesADraftIfThePreviousModelIsCappedMeanwhile) {
+  const ModelRecord made = reprocess([&] {
+    ModelRecord capped = **hooked_.find(first_);
+    capped.public_part = PublicPart{.file = capped.file, .file_bytes = capped.file_bytes};
+    ASSERT_TRUE(installation_.catalogue->update(capped, std::nullopt));
+  });
+  EXPECT_EQ(made.state, ModelState::kDraft);
+  EXPECT_EQ(hooked_.find(first_).value()->state, ModelState::kPublished);
+  EXPECT_EQ(info(scan_).entry.model, first_) << "a draft does not replace it";
 }
 
 TEST_F(Scans, AJobWhoseScannerIsNotConfiguredAnyMoreSaysSo) {

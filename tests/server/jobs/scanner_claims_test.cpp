@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "server/catalogue/sqlite_catalogue.h"
 #include "server/catalogue/sqlite_database.h"
-#include "server/catalogue/sqlite_jobs.h"
 #include "server/jobs/fenced_devices.h"
 #include "support/temporary_folder.h"
 
@@ -82,7 +82,7 @@ TEST_F(Claimants, ALeaseThatCouldNotBeRenewedDoesNotCountAsExpired) {
   ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if the first daemon's lease had expired
   second->beat();
   EXPECT_FALSE(second->check("left"));
-  // The third daemon has just started. It does not know that the catalogue was unreachable, so it
+  // The third daemon has just started and has not seen the failure of the catalogue. It therefore
   // acquires the scanner at once.
   third->beat();
   EXPECT_TRUE(third->check("left"));

@@ -23,13 +23,14 @@ class ScansTest : public testing::Test {
     backends.push_back(std::make_unique<test::FakeBackend>(world_));
     service_ =
         std::make_unique<ScanService>(ScanServiceOptions{.store = *installation_.store,
-                                                         .catalogue = *installation_.catalogue,
+                                                         .catalogue = *catalogue_,
                                                          .jobs = *installation_.jobs,
                                                          .events = events_,
                                                          .data = folder_.path(),
                                                          .program = VITRINE_BIN_DIR "/vitrined",
                                                          .idle_timeout = idle_timeout,
                                                          .quota = quota_.get(),
+                                                         .when_added = when_added_,
                                                          .now = [this] { return now_.load(); }},
                                       std::move(backends));
     ASSERT_TRUE(service_->start());
@@ -56,7 +57,7 @@ class ScansTest : public testing::Test {
     EXPECT_TRUE(started) << started.error().message;
     return *started;
   }
-  // Moves the clock to the time at which a laser must be off that was lit just now.
+  // Moves the clock forward by the longest time that a laser may stay on.
   void let_the_laser_end() { now_ = now_.load() + kLongestLit; }
   ScannerStation& station() { return *service_->scanner(world_.name); }
 
@@ -67,6 +68,8 @@ class ScansTest : public testing::Test {
   test::TemporaryFolder folder_;
   Installation installation_ = open_installation({.folder = folder_.path()}).value();
   const Log events_ = Log::open("").value();
+  Catalogue* catalogue_ = installation_.catalogue.get();  // the catalogue that the service uses
+  std::function<void(const ModelId&)> when_added_;
   const Uploads uploads_{folder_.path() / "uploads", {}};
   std::unique_ptr<Quota> quota_;
   std::unique_ptr<ScanService> service_;

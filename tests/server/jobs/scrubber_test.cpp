@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/scrubber.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "server/store/file_object.h"
 #include "server/store/installation.h"
 #include "server/store/publish.h"
+#include "support/damage_object.h"
+#include "support/forwarding/store_before.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 
@@ -19,6 +23,26 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
+// A store that opens local copies of its objects, as a store in a bucket does.
+class CopyingStore final : public test::StoreBefore {
+ public:
+  CopyingStore(ObjectStore& store, std::filesystem::path copy)
+      : StoreBefore(store), copy_(std::move(copy)) {}
+
+  Expected<std::unique_ptr<Object>> open(const Sha256& name) const override {
+    const auto object = before_.open(name);
+    if (!object || *object == nullptr) return nullptr;
+    const auto bytes = (*object)->read(0, (*object)->size()).value();
+    std::filesystem::remove(copy_);
+    std::ofstream(copy_, std::ios::binary) << std::string(bytes.begin(), bytes.end());
+    return object_in(FileDescriptor(::open(copy_.c_str(), O_RDONLY | O_CLOEXEC)), bytes.size());
+  }
+  bool keeps_copies() const override { return true; }
+
+ private:
+  const std::filesystem::path copy_;
+};
+
 class ScrubberTest : public testing::Test {
  protected:
   ModelId add(const std::string& title) {
@@ -26,12 +50,10 @@ class ScrubberTest : public testing::Test {
     return publish(*in_.store, *in_.catalogue, file.bytes, {.title = title}).value().id;
   }
   Sha256 file_of(const ModelId& id) { return in_.catalogue->find(id).value()->file; }
+  void damage(const Sha256& file) { test::damage_object(folder_.path(), file); }
   std::filesystem::path path_of(const Sha256& file) {
     const std::string hex = to_hex(file);
     return folder_.path() / "objects" / hex.substr(0, 2) / hex.substr(2, 2) / hex;
-  }
-  void damage(const Sha256& file) {
-    std::fstream(path_of(file), std::ios::in | std::ios::out).seekp(-1, std::ios::end).put('!');
   }
   std::string log() {
     std::ifstream in(folder_.path() / "log");
@@ -68,6 +90,31 @@ TEST_F(ScrubberTest, ADamagedAndALostObjectAreFoundLoggedAndServedNoMore) {
   EXPECT_FALSE(models_.find(damaged));
   EXPECT_FALSE(models_.find(lost));
   EXPECT_TRUE(models_.find(sound));
+}
+
+TEST_F(ScrubberTest, ADamagedLocalCopyIsLoadedAgain) {
+  const auto bytes = test::tiny_pmesh("base of vase", "chunk").bytes;
+  const ModelId id = add("vase");
+  const auto copy = folder_.path() / "copy";
+  const CopyingStore store(*in_.store, copy);
+  PublishedModels models(store, *in_.catalogue);
+  Scrubber scrubber({.store = store,
+                     .catalogue = *in_.catalogue,
+                     .models = models,
+                     .catalogue_faults = [] { return std::vector<std::string>(); },
+                     .events = events_});
+  const auto first = models.find(id).value();
+  EXPECT_TRUE(scrubber.check_all());
+  EXPECT_EQ(models.find(id).value(), first) << "an intact copy stays open";
+  std::fstream(copy, std::ios::in | std::ios::out | std::ios::binary)
+      .seekp(-1, std::ios::end)
+      .put('x');
+  EXPECT_TRUE(scrubber.check_all());
+  const auto second = models.find(id).value();
+  EXPECT_EQ(second->file().read(0, bytes.size()).value(), bytes);
+  EXPECT_NE(second->damages(), first->damages()) << "caches may have parts of the damaged copy";
+  EXPECT_THAT(models.damaged(), IsEmpty());
+  EXPECT_THAT(log(), HasSubstr("the local copy of object " + to_hex(file_of(id)) + " was damaged"));
 }
 
 TEST_F(ScrubberTest, AnObjectThatWasPutBackIsServedAgain) {

@@ -104,7 +104,7 @@ TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsUndone) {
   };
   EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
   world_.meanwhile = {};
-  backend_.allow(0);  // a client that does not know of the stop requests this
+  backend_.allow(0);  // a client that has not seen the stop sends the old number of stops
   EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
   EXPECT_EQ(world_.degrees, 0);
   EXPECT_TRUE(backend_.picture());
@@ -136,7 +136,7 @@ TEST_F(SessionDevices, ABoardThatWasPluggedInAgainIsUsed) {
   EXPECT_TRUE(backend_.jog(10));
 }
 
-// An operator who places the target when asked.
+// An operator who places the target on request, unless `refuse` is set.
 struct Hands final : CalibrationListener {
   void report(const CalibrationProgress&) override {}
   bool await_operator(const CalibrationProgress& progress) override {

@@ -5,8 +5,8 @@
 
 #include <future>
 
+#include "server/catalogue/sqlite_catalogue.h"
 #include "server/catalogue/sqlite_database.h"
-#include "server/catalogue/sqlite_jobs.h"
 #include "server/jobs/job_queue.h"
 #include "support/held_executor.h"
 #include "support/temporary_folder.h"
@@ -22,7 +22,7 @@ JobRecord scan_at(const std::string& scanner) {
   return {.id = JobId::generate(), .scanner = scanner};
 }
 
-// A daemon whose only job runs until it is released or asked to stop.
+// A daemon with one job, which runs until the test releases it or a stop is requested.
 class Builder {
  public:
   Builder(JobCatalogue& catalogue, const Log& events, const std::string& holder)
@@ -88,14 +88,14 @@ class SharedJobs : public testing::Test {
     ASSERT_TRUE(catalogue_->drop_leases("first"));
     second_.begin();
   }
-  // Returns the queue of a third daemon. Each of its jobs ends as soon as it runs.
+  // Returns the job queue of a third daemon. Each of its jobs succeeds as soon as it runs.
   JobQueue scanning(TakenJobs taken) {
     taken.holder = "scans";
     return {*catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; }, taken};
   }
 
   // Adds a job and pauses it while its executor is blocked. Returns the blocked executor. The pause
-  // takes effect once the executor is released.
+  // takes effect when the caller releases the executor.
   static test::HeldExecutor put_aside(JobQueue& queue, const JobRecord& job) {
     test::HeldExecutor held(queue.executor(job.scanner));
     EXPECT_TRUE(queue.add(job, {}, {}));
@@ -138,7 +138,7 @@ TEST_F(SharedJobs, OneDaemonAcceptsAJobThatAnotherRunsAndShowsItsProgress) {
 }
 
 TEST_F(SharedJobs, ManyJobsOfOneOwnerDoNotDelayTheJobOfAnotherOnAnyDaemon) {
-  constexpr int kMany = 140;  // more than a daemon takes up at once
+  constexpr int kMany = 140;  // more jobs than a daemon claims at a time
   const auto add_for = [&](const std::string& owner) {
     JobRecord job = upload();
     job.owner = owner;
@@ -203,7 +203,7 @@ TEST_F(SharedJobs, ALeaseThatCouldNotBeRenewedDoesNotCountAsExpired) {
   database->lease()->run("ALTER TABLE away RENAME TO job");
   second_.queue().beat();
   ASSERT_EQ(second_.queue().run(job.id), nullptr);
-  // The first daemon has just started. It does not know that the catalogue was unreachable, so it
+  // The first daemon has just started and has not seen the failure of the catalogue. It therefore
   // claims the job at once.
   first_.begin();
 }

@@ -83,7 +83,7 @@ TEST(Webhooks, AWaitingMessageIsPostedOnceAndNotAfterAnotherDaemonHasDoneSo) {
     EXPECT_THAT(listener.hear("200 OK"), HasSubstr(std::string("POST ") + path + " "));
 }
 
-// The example of the specification's test suite.
+// The example comes from the test suite of the Standard Webhooks specification.
 TEST(Webhooks, AreSignedAsTheSpecificationSays) {
   Settings settings;
   ASSERT_TRUE(
@@ -96,7 +96,7 @@ TEST(Webhooks, AreSignedAsTheSpecificationSays) {
                   "webhook-signature: v1,g0hM9SsE+OTPJTGt/tmIKtSyZlE3uFJELVlNIOLJ1OE="));
 }
 
-// A receiver that follows server/README.md.
+// A receiver that verifies calls as server/README.md describes.
 class Receiver {
  public:
   explicit Receiver(std::string key) : key_(std::move(key)) {}

@@ -21,11 +21,11 @@ std::string read_all(int descriptor) {
   return text;
 }
 
-// A write(2) to a full pipe waits. A signal interrupts the wait, and write(2) then returns the
-// number of bytes written.
+// write(2) to a full pipe waits. If a signal interrupts the wait, write(2) returns the number of
+// bytes written so far.
 TEST(LineBatch, AWriteThatIsInterruptedTearsNoLine) {
   struct sigaction action {};
-  action.sa_handler = [](int) {};  // without SA_RESTART, write(2) is not continued
+  action.sa_handler = [](int) {};  // no SA_RESTART, so that write(2) returns after a signal
   ASSERT_EQ(::sigaction(SIGUSR2, &action, nullptr), 0);
   int ends[2];
   ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);

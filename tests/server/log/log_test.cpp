@@ -143,7 +143,7 @@ TEST(Log, AFullFileThatAnotherProcessHasReplacedIsLeftBehind) {
     static_cast<void>(log.access({.request_id = id}));
     log.flush();
   };
-  write(*one, "first");  // `other` still has the old file open
+  write(*one, "first");  // `other` still has the old log file open
   write(*other, "second");
   EXPECT_EQ(slurp(file), "");
   EXPECT_THAT(slurp(old), ::testing::AllOf(HasSubstr("id=first"), HasSubstr("id=second")));

@@ -7,46 +7,46 @@ namespace vitrine::server {
 namespace {
 
 using beast::http::field;
-using Kind = RangeChoice::Kind;
+using Outcome = RangeChoice::Outcome;
 
 struct RangeCase {
   const char* range;
-  Kind kind;
+  Outcome outcome;
   std::uint64_t offset = 0, length = 0;
 };
 
 TEST(ChooseRange, ServesOneRangeOfATenByteBody) {
   const RangeCase cases[] = {
-      {"bytes=0-0", Kind::kPart, 0, 1},
-      {"bytes=2-5", Kind::kPart, 2, 4},
-      {"bytes=9-", Kind::kPart, 9, 1},
-      {"bytes=5-1000", Kind::kPart, 5, 5},
-      {"bytes=0-18446744073709551615", Kind::kPart, 0, 10},
-      {"bytes=-3", Kind::kPart, 7, 3},
-      {"bytes=-11", Kind::kPart, 0, 10},
-      {"bytes=10-", Kind::kUnsatisfiable},
-      {"bytes=10-20", Kind::kUnsatisfiable},
-      {"bytes=-0", Kind::kUnsatisfiable},
-      {"bytes=5-2", Kind::kWhole},
-      {"bytes=a-b", Kind::kWhole},
-      {"bytes=1-2,4-5", Kind::kWhole},
-      {"bytes=", Kind::kWhole},
-      {"bytes=-", Kind::kWhole},
-      {"bytes=+1-2", Kind::kWhole},
-      {"bytes=0-99999999999999999999999", Kind::kWhole},
-      {"lines=1-2", Kind::kWhole},
+      {"bytes=0-0", Outcome::kPart, 0, 1},
+      {"bytes=2-5", Outcome::kPart, 2, 4},
+      {"bytes=9-", Outcome::kPart, 9, 1},
+      {"bytes=5-1000", Outcome::kPart, 5, 5},
+      {"bytes=0-18446744073709551615", Outcome::kPart, 0, 10},
+      {"bytes=-3", Outcome::kPart, 7, 3},
+      {"bytes=-11", Outcome::kPart, 0, 10},
+      {"bytes=10-", Outcome::kUnsatisfiable},
+      {"bytes=10-20", Outcome::kUnsatisfiable},
+      {"bytes=-0", Outcome::kUnsatisfiable},
+      {"bytes=5-2", Outcome::kWhole},
+      {"bytes=a-b", Outcome::kWhole},
+      {"bytes=1-2,4-5", Outcome::kWhole},
+      {"bytes=", Outcome::kWhole},
+      {"bytes=-", Outcome::kWhole},
+      {"bytes=+1-2", Outcome::kWhole},
+      {"bytes=0-99999999999999999999999", Outcome::kWhole},
+      {"lines=1-2", Outcome::kWhole},
   };
   for (const RangeCase& test : cases) {
     const RangeChoice choice = choose_range(test.range, 10);
-    EXPECT_EQ(choice.kind, test.kind) << test.range;
+    EXPECT_EQ(choice.outcome, test.outcome) << test.range;
     EXPECT_EQ(choice.offset, test.offset) << test.range;
     EXPECT_EQ(choice.length, test.length) << test.range;
   }
 }
 
 TEST(ChooseRange, HasNothingToServeOfAnEmptyBody) {
-  EXPECT_EQ(choose_range("bytes=0-", 0).kind, Kind::kUnsatisfiable);
-  EXPECT_EQ(choose_range("bytes=-1", 0).kind, Kind::kUnsatisfiable);
+  EXPECT_EQ(choose_range("bytes=0-", 0).outcome, Outcome::kUnsatisfiable);
+  EXPECT_EQ(choose_range("bytes=-1", 0).outcome, Outcome::kUnsatisfiable);
 }
 
 TEST(MatchesAny, ReadsLists) {

@@ -34,6 +34,16 @@ TEST(Query, DecodesEscapesAndSpaces) {
   EXPECT_EQ(query->get("none"), std::nullopt);
 }
 
+TEST(DecodePath, TakesEscapesButNoPlusForASpace) {
+  EXPECT_EQ(decode_path("a+b%20%C3%A9%2F"), "a+b \xC3\xA9/");
+  EXPECT_EQ(decode_path("a%2"), std::nullopt);
+}
+
+TEST(Query, KnowsWhichParameterIsGivenTwice) {
+  EXPECT_EQ(Query::parse("a=1&b=2&a=1&b=3")->repeated(), "a");
+  EXPECT_EQ(Query::parse("a=1&b=1")->repeated(), std::nullopt);
+}
+
 TEST(Query, RefusesMalformedEscapesAndTooManyParameters) {
   for (const char* text : {"q=%", "q=%1", "q=%zz", "q=%-1", "%"})
     EXPECT_FALSE(Query::parse(text)) << text;

@@ -72,8 +72,61 @@ TEST(BuildChild, UnpacksAPackageWithNamesBeyondAscii) {
     const auto built = BuildChild().build(testing::as_bytes(package), order(), {});
     ASSERT_TRUE(built) << built.error().message;
     EXPECT_EQ(built->file, build_model(testing::as_bytes(package), {.bits = 12}, {})->file);
-    EXPECT_NE(built->repairs.find("material colours baked"), std::string::npos) << built->repairs;
+    EXPECT_NE(built->repairs.find("colours of 1 material baked"), std::string::npos)
+        << built->repairs;
   }
+}
+
+// Returns an OBJ file and a material library. The materials refer to pictures with these names,
+// which do not exist.
+std::string package_that_lacks(const std::vector<std::string>& maps) {
+  std::string obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n", library;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    obj += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n";
+    library += "newmtl m" + std::to_string(i) + "\nmap_Kd " + maps[i] + "\n";
+  }
+  return test::zip_of({{"a.obj", obj}, {"m.mtl", library}});
+}
+
+TEST(BuildChild, NamesInNotesKeepTheirLetters) {
+  const auto built = BuildChild().build(
+      testing::as_bytes(package_that_lacks({"B\xFCste.png", "\xD0\xB1.png", "\x1B[2J.png"})),
+      order(), {});
+  ASSERT_TRUE(built) << built.error().message;
+  for (const std::string_view name : {"'B\xC3\xBCste.png'", "'\xD0\xB1.png'", "'?[2J.png'"})
+    EXPECT_NE(built->repairs.find(name), std::string::npos) << built->repairs;
+}
+
+TEST(BuildChild, NotesThatDoNotFitAreCounted) {
+  std::vector<std::string> maps;
+  for (int i = 0; i < 200; ++i)
+    maps.push_back("map" + std::to_string(i) + ".png");
+  const auto built = BuildChild().build(testing::as_bytes(package_that_lacks(maps)), order(), {});
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_LE(built->repairs.size(), 4096U);
+  EXPECT_GT(built->repairs.size(), 3800U);
+  const auto shown = std::count(built->repairs.begin(), built->repairs.end(), '\n');
+  const auto here = build_model(testing::as_bytes(package_that_lacks(maps)), {}, {});
+  const std::string end =
+      "\n… and " +
+      std::to_string(here->report.input.repairs.size() - static_cast<std::size_t>(shown)) +
+      " more; `vitrine build` lists all";
+  EXPECT_TRUE(built->repairs.ends_with(end)) << built->repairs;
+}
+
+TEST(BuildChild, WhatMaterialsWithoutPicturesLoseIsNoted) {
+  const std::string obj =
+      "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl glass\nf 1 2 3\nusemtl stone\nf 1 "
+      "2 4\n";
+  const std::string library = "newmtl glass\nKd 0 1 0\nd 0.3\nnewmtl stone\nKd 1 0 0\n";
+  const auto built = BuildChild().build(
+      testing::as_bytes(test::zip_of({{"a.obj", obj}, {"m.mtl", library}})), order(), {});
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_NE(
+      built->repairs.find("opacity of 1 material not carried: no material has a picture; give "
+                          "the materials a texture map"),
+      std::string::npos)
+      << built->repairs;
 }
 
 TEST(BuildChild, WorksBesideThreadsThatHoldLocks) {
@@ -106,7 +159,8 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Returns the limit on the address space of this thread's child in bytes; 0 if it is unlimited.
+// Returns the limit, in bytes, of the address space of this thread's child process. Returns 0 if it
+// is unlimited.
 std::uint64_t address_space_of_child() {
   std::uint64_t child = 0, limit = 0;
   std::istringstream(text_of("/proc/thread-self/children")) >> child;

@@ -4,7 +4,10 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -16,6 +19,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -32,7 +37,7 @@ namespace {
 using ::testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-// Returns the errno of a call in the sandbox; 0 if the call succeeded.
+// Returns the errno of a system call, or 0 if the call succeeded.
 Expected<Bytes> outcome(long result) {
   return Bytes{static_cast<std::uint8_t>(result < 0 ? errno : 0)};
 }
@@ -199,8 +204,8 @@ TEST(Sandbox, MemoryBeyondTheLimitIsALimitErrorThatSaysHowMuch) {
   EXPECT_THAT(answer.error().message, HasSubstr("more than 1 GB of memory"));
 }
 
-// Runs `task` in the sandbox of a process whose address space is limited as LimitAS does, and
-// returns the error message.
+// Runs `task` in the sandbox of a process whose address space is limited, as by LimitAS= of
+// systemd. Returns the error message.
 std::string error_under(rlim_t address_space, const SandboxedTask& task) {
   int ends[2];
   EXPECT_EQ(::pipe(ends), 0);
@@ -227,13 +232,13 @@ TEST(Sandbox, AnInheritedLimitOnTheAddressSpaceIsNamed) {
   EXPECT_EQ(error_under(1ull << 30, [](const auto&) { return Bytes{}; }), "no error");
 }
 
-// The task unmaps a part of the spill file, and then maps private memory in its place.
+// The task unmaps a part of the spill file, and then tries to map private memory in its place.
 TEST(Sandbox, TheAddressSpaceOfTheSpillFileIsOfNoOtherUse) {
   constexpr std::size_t kLimit = 256u << 20, kPart = 1u << 30;
   const test::TemporaryFolder folder;
   const auto task = [](const auto&) -> Expected<Bytes> {
     if (spill_capacity() < kPart) return fail(ErrorCode::kLimit, "the disk has too little room");
-    auto* const spilled = new std::uint8_t[1 << 20];  // the first block lies at the file's start
+    auto* const spilled = new std::uint8_t[1 << 20];  // the first block starts the spill file
     if (spilled_bytes() == 0 || ::munmap(spilled, kPart) != 0)
       return fail(ErrorCode::kIo, "the block was not spilled");
     return outcome(::mmap(nullptr, 2 * kLimit, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS,
@@ -316,14 +321,14 @@ TEST(Sandbox, AChildThatTheKernelKillsForItsMemoryIsALimitError) {
   EXPECT_THAT(answer.error().message, HasSubstr("memory ran out; raise MemoryMax"));
 }
 
-// Returns the result of `look` for the folder /proc/PID of a sandboxed child. The child waits
-// meanwhile.
+// Calls `look` with the folder /proc/PID of a sandboxed child, and returns its result. The child
+// waits during the call.
 std::string look_at_child(const std::function<std::string(const std::filesystem::path&)>& look) {
   std::string found;
   const auto answer = run_sandboxed(
       {},
       [](const ProgressReport& report) -> Expected<Bytes> {
-        for (int i = 0; i < 10'000; ++i)  // more than the pipe holds, so the child waits for reads
+        for (int i = 0; i < 10'000; ++i)  // more than the pipe holds, so the child must wait
           report("a stage with a long name", 0.5);
         return Bytes{};
       },
@@ -338,7 +343,7 @@ std::string look_at_child(const std::function<std::string(const std::filesystem:
 }
 
 #ifndef VITRINE_SANITISED  // the sanitizers' threads keep a process from leaving its namespaces
-// Whether the kernel lets a process of this user leave the network.
+// Returns whether the kernel lets a process of this user enter a new network namespace.
 bool can_leave_network() {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(leave_network() ? 0 : 1);
@@ -347,19 +352,53 @@ bool can_leave_network() {
   return status == 0;
 }
 
+// Skips the test. If VITRINE_NO_SKIPS is set, the test fails instead.
+#define SKIP_IF_ALLOWED(reason)                                      \
+  do {                                                               \
+    ASSERT_EQ(std::getenv("VITRINE_NO_SKIPS"), nullptr) << (reason); \
+    GTEST_SKIP() << (reason);                                        \
+  } while (false)
+
 TEST(Sandbox, TheChildHasANetworkOfItsOwn) {
-  if (!can_leave_network()) GTEST_SKIP() << "the kernel allows no network namespaces here";
+  if (!can_leave_network()) SKIP_IF_ALLOWED("the kernel allows no network namespaces here");
   std::error_code refused;
   const auto network_of = [&](const std::filesystem::path& process) {
     const auto network = std::filesystem::read_symlink(process / "ns/net", refused).string();
     return refused ? "unknown" : network;
   };
   const std::string own = network_of("/proc/self"), childs = look_at_child(network_of);
-  if (refused) GTEST_SKIP() << "only root may look at a confined process";
-  EXPECT_THAT(childs, testing::StartsWith("net:["));
+  if (refused) SKIP_IF_ALLOWED("only root may look at a confined process");
+  EXPECT_THAT(childs, ::testing::StartsWith("net:["));
   EXPECT_NE(childs, own);
 }
 #endif
+
+// Makes unshare() fail, as RestrictNamespaces= in the shipped systemd unit does.
+bool restrict_namespaces() {
+  sock_filter steps[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_unshare, 0, 1),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog filter{.len = 4, .filter = steps};
+  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0 && !leave_network();
+}
+
+TEST(Sandbox, TheChildWorksAndHasNoNetworkIfTheServiceManagerForbidsNamespaces) {
+  const pid_t service = ::fork();
+  if (service == 0) {
+    if (!restrict_namespaces()) ::_exit(1);
+    if (!run([](const auto&) { return Bytes{}; })) ::_exit(2);
+    const auto answer = run([](const auto&) { return outcome(::socket(AF_INET, SOCK_STREAM, 0)); });
+    ::_exit(!answer && answer.error().message.find(kForbidden) != std::string::npos ? 0 : 3);
+  }
+  int status = 0;
+  ::waitpid(service, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
 
 TEST(Sandbox, TheKernelKillsTheChildFirstIfMemoryRunsOut) {
   EXPECT_EQ(look_at_child([](const std::filesystem::path& process) {

@@ -57,7 +57,7 @@ TEST(PageRanges, TakenRangesNeverOverlapAndTheLastOneBackLeavesOneFreeRange) {
   }
 }
 
-// A fixture with a folder for the spill file, and limits so small that every large block is
+// A fixture with a folder for the spill file. Its limits are so small that every large block is
 // spilled.
 struct Spilling {
   TemporaryFolder folder;
@@ -145,6 +145,33 @@ TEST(Spill, TheFileGrowsNoLargerThanItsLimitAndTheRestUsesMemory) {
     const Bytes first(3 << 20, 7), second(3 << 20, 8);
     const bool fits = spill_capacity() == kMost && spilled_bytes() == first.size();
     return Bytes{static_cast<std::uint8_t>(fits && first.back() == 7 && second.back() == 8)};
+  });
+  ASSERT_TRUE(answer) << answer.error().message;
+  EXPECT_EQ(*answer, Bytes{1});
+}
+
+TEST(Spill, TheReserveOfTheDiskStaysFree) {
+  Spilling spilling;
+  const auto capacity = [&] {
+    const auto answer = run_sandboxed(spilling.limits, [](const auto&) -> Expected<Bytes> {
+      return Bytes{static_cast<std::uint8_t>(spill_capacity() > 0)};
+    });
+    return answer.value()[0];
+  };
+  EXPECT_EQ(capacity(), 1);
+  spilling.limits.spill.disk_reserve = UINT64_MAX;
+  EXPECT_EQ(capacity(), 0);
+}
+
+TEST(Spill, HalfOfTheSpaceBeyondTheReserveIsTheCapacity) {
+  Spilling spilling;
+  const std::uint64_t free = std::filesystem::space(spilling.folder.path()).available;
+  // A large value: other programs that write to the disk meanwhile then hardly change the result.
+  const std::uint64_t beyond = std::min<std::uint64_t>(free, 1 << 30) / 2;
+  spilling.limits.spill.disk_reserve = free - beyond;
+  const auto answer = run_sandboxed(spilling.limits, [&](const auto&) -> Expected<Bytes> {
+    const std::uint64_t least = beyond / 4, most = beyond / 4 * 3;
+    return Bytes{static_cast<std::uint8_t>(least < spill_capacity() && spill_capacity() < most)};
   });
   ASSERT_TRUE(answer) << answer.error().message;
   EXPECT_EQ(*answer, Bytes{1});

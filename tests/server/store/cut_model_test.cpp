@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that a file without its finer levels is a complete model.
+// Tests that a file remains a complete model when its finer levels are removed.
 #include <gtest/gtest.h>
 
 #include "codec/build/build_model.h"
@@ -15,7 +15,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Returns a model of many small regions and levels. Some levels are on coarser lattices.
+// Returns a model with many small regions and many levels. Some levels are on coarser lattices.
 const Bytes& whole() {
   static const Bytes file = [] {
     const auto mesh = *write_mesh(torus(120, 60), MeshFormat::kPly, {.unit = "mm"});

@@ -14,7 +14,7 @@
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
-#include "support/catalogue_before.h"
+#include "support/forwarding/catalogue_before.h"
 #include "support/held_lock.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
@@ -58,8 +58,8 @@ class FullCatalogue final : public test::CatalogueBefore {
   }
 };
 
-// A catalogue that another client changes at a bad moment. find_chunk() calls `change` after the
-// look-up and before it returns the result.
+// Simulates a change of the catalogue by another client at a critical moment. find_chunk() calls
+// `change` after it has looked up the chunk, and before it returns the result.
 class HastyCatalogue final : public test::CatalogueBefore {
  public:
   HastyCatalogue(Catalogue& before, std::function<void()> change)
@@ -158,7 +158,7 @@ TEST_F(Publish, ADamagedFileIsServedWholeOnceItWasPublishedAgain) {
 
 TEST_F(Publish, AnObjectThatLosesItsNameIsKeptForTheGracePeriod) {
   constexpr std::chrono::hours kGrace{1};
-  const auto unnamed = [&] {  // sweeps; returns the number of removed objects
+  const auto unnamed = [&] {  // sweeps, and returns the number of removed objects
     const auto files = catalogue_->files().value();
     std::set<Sha256> named;
     for (const NamedFile& file : files)
@@ -277,6 +277,24 @@ TEST_F(Publish, TheSameFileUnderTheSameTitleIsTheSameModel) {
   EXPECT_TRUE(first->is_new);
   EXPECT_FALSE(again->is_new);
   EXPECT_EQ(model_count(), 1u);
+}
+
+TEST_F(Publish, RepairsStayUntilAnotherBuildOfTheFileOrAnotherFileHasOwnOnes) {
+  const auto publish_with = [&](const std::string& repairs) {
+    return publish(store_, *catalogue_, file_.bytes, {}, {.repairs = repairs}).value().id;
+  };
+  const ModelId id = publish_with("");
+  const auto repairs = [&] { return catalogue_->find(id).value().value().repairs; };
+  EXPECT_EQ(repairs(), "");
+  EXPECT_EQ(publish_with("1 face dropped"), id);
+  EXPECT_EQ(repairs(), "1 face dropped");
+  EXPECT_EQ(publish_with(""), id) << "the file alone";
+  EXPECT_EQ(repairs(), "1 face dropped");
+  const auto other = test::tiny_pmesh("another base", "a chunk").bytes;
+  ASSERT_TRUE(replace(store_, *catalogue_, other, {}, {.id = id, .repairs = "2 faces dropped"}));
+  EXPECT_EQ(repairs(), "2 faces dropped");
+  ASSERT_TRUE(replace(store_, *catalogue_, file_.bytes, {}, {.id = id}));
+  EXPECT_EQ(repairs(), "");
 }
 
 TEST_F(Publish, AModelHiddenByAnotherProcessIsServedNoMore) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the cache of published models: its size, its lifetime, and which caller opens a model.
+// Tests the cache of published models: its size, the lifetime of its entries, and which of several
+// callers opens a model.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,45 +13,29 @@
 #include "server/store/file_store.h"
 #include "server/store/publish.h"
 #include "server/store/published_model.h"
-#include "support/catalogue_before.h"
+#include "support/forwarding/catalogue_before.h"
+#include "support/forwarding/store_before.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 
 namespace vitrine::server {
 namespace {
 
-// A file store that counts opened objects and can delay opening.
-class WatchedStore final : public ObjectStore {
+// A store that counts opened objects, and can delay opening or let it fail.
+class WatchedStore final : public test::StoreBefore {
  public:
-  explicit WatchedStore(FileStore store) : store_(std::move(store)) {}
+  using StoreBefore::StoreBefore;
 
-  Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override {
-    return store_.put(name, bytes);
-  }
-  Expected<std::shared_ptr<const ExclusiveLock>> lock() override { return store_.lock(); }
-  Expected<void> remove(const Sha256& name) override { return store_.remove(name); }
-  Expected<void> begin_grace(const Sha256& name) override { return store_.begin_grace(name); }
-  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
-                              const ExclusiveLock& lock) override {
-    return store_.sweep(keep, grace, lock);
-  }
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override {
     ++opened;
     before_opening();
-    return store_.open(name);
-  }
-  Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const override {
-    return store_.check(name, on_piece);
-  }
-  Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override {
-    return store_.size_of(name);
+    if (is_away) return fail(ErrorCode::kIo, "the store is away");
+    return before_.open(name);
   }
 
   mutable std::atomic<int> opened{0};
   std::function<void()> before_opening = [] {};
-
- private:
-  FileStore store_;
+  bool is_away = false;
 };
 
 class PublishedModelsTest : public testing::Test {
@@ -63,7 +48,8 @@ class PublishedModelsTest : public testing::Test {
   const PublishedModel* get(const ModelId& id) { return models_.find(id).value().get(); }
 
   test::TemporaryFolder folder_;
-  WatchedStore store_{FileStore::open(folder_.path() / "objects").value()};
+  FileStore files_ = FileStore::open(folder_.path() / "objects").value();
+  WatchedStore store_{files_};
   std::unique_ptr<Catalogue> catalogue_ =
       open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
   PublishedModels models_{store_, *catalogue_, std::chrono::milliseconds(0)};
@@ -179,6 +165,24 @@ TEST_F(PublishedModelsTest, ACallerWaitsForAModelThatIsBeingOpened) {
   EXPECT_EQ(store_.opened, 1);
 }
 
+TEST_F(PublishedModelsTest, AFailureIsSharedUntilItIsStaleOrSomethingChanges) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  const ModelId id = add("one");
+  store_.is_away = true;
+  store_.opened = 0;
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(lazy.find(id).error().code, ErrorCode::kIo);
+  EXPECT_EQ(store_.opened, 1);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_FALSE(models_.find(id));  // its failures are stale at once
+  EXPECT_EQ(store_.opened, 4);
+  store_.is_away = false;
+  EXPECT_FALSE(lazy.find(id));
+  EXPECT_TRUE(models_.find(id).value());
+  lazy.refresh();
+  EXPECT_TRUE(lazy.find(id).value());
+}
+
 TEST_F(PublishedModelsTest, AFileThatIsCollectedBeforeItIsOpenWasAnOldRecords) {
   const ModelId one = add("one"), two = add("two");
   const test::TinyPmesh newer = test::tiny_pmesh("another base", "another");
@@ -265,6 +269,73 @@ TEST_F(PublishedModelsTest, AFileThatIsFoundDamagedIsServedNoMore) {
   EXPECT_TRUE(lazy.cached(other));
   lazy.set_intact(file);
   EXPECT_TRUE(lazy.find(id).value());
+}
+
+TEST_F(PublishedModelsTest, AModelIsKeptThoughAnotherChangesWhileItOpens) {
+  const ModelId id = add("one");
+  store_.before_opening = [&, is_first = true]() mutable {
+    if (!std::exchange(is_first, false)) return;
+    add("two");
+    ASSERT_TRUE(models_.revision());
+  };
+  const auto* const first = get(id);
+  EXPECT_EQ(get(id), first);
+  EXPECT_EQ(models_.misses, 1u);
+}
+
+TEST_F(PublishedModelsTest, AModelThatChangesWhileItOpensIsNotKept) {
+  const ModelId id = add("one");
+  store_.before_opening = [&, is_first = true]() mutable {
+    if (!std::exchange(is_first, false)) return;
+    ModelRecord record = catalogue_->find(id).value().value();
+    record.title = "another";
+    ASSERT_TRUE(catalogue_->update(record, std::nullopt));
+    ASSERT_TRUE(models_.revision());
+  };
+  get(id);
+  EXPECT_EQ(get(id)->record().title, "another");
+}
+
+TEST_F(PublishedModelsTest, AModelWhoseCopyIsFoundDamagedWhileItOpensIsNotKept) {
+  const ModelId id = add("one");
+  store_.before_opening = [&, is_first = true]() mutable {
+    if (!std::exchange(is_first, false)) return;
+    models_.drop_copies(catalogue_->find(id).value()->file);
+  };
+  EXPECT_EQ(models_.find(id).value()->damages(), 0u);
+  EXPECT_EQ(models_.find(id).value()->damages(), 1u);
+}
+
+TEST_F(PublishedModelsTest, NobodyWaitsForAFileThatIsDamagedOrThatTheCacheCannotHold) {
+  const ModelId id = add("one");
+  const Sha256 file = catalogue_->find(id).value()->file;
+  ASSERT_TRUE(models_.revision());
+  EXPECT_EQ(models_.unopened(id, false), file);
+  models_.set_damaged(file);
+  EXPECT_EQ(models_.unopened(id, false), std::nullopt);
+  models_.set_intact(file);
+  models_.set_capacity(0);
+  EXPECT_EQ(models_.unopened(id, false), std::nullopt);
+  models_.set_capacity(1);
+  EXPECT_EQ(models_.unopened(id, false), file) << "its size is not known yet";
+  EXPECT_TRUE(get(id));
+  EXPECT_EQ(models_.unopened(id, false), std::nullopt);
+  models_.set_capacity(UINT64_MAX);
+  EXPECT_EQ(models_.unopened(id, false), file);
+}
+
+TEST_F(PublishedModelsTest, DroppedCopiesCountAsDamagedAndTheFileIsOpenedAgain) {
+  const ModelId id = add("one");
+  const Sha256 file = catalogue_->find(id).value()->file;
+  const auto first = models_.find(id).value();
+  EXPECT_EQ(models_.damages_of(file), first->damages());
+  const ModelsRevision before = models_.revision().value();
+  models_.drop_copies(file);
+  EXPECT_EQ(models_.damages_of(file), first->damages() + 1);
+  EXPECT_NE(models_.revision().value(), before);
+  EXPECT_TRUE(models_.damaged().empty());
+  EXPECT_EQ(models_.unopened(id, false), file);
+  EXPECT_EQ(get(id)->damages(), models_.damages_of(file));
 }
 
 TEST_F(PublishedModelsTest, TheCatalogueIsAskedInTheBackground) {

@@ -104,7 +104,7 @@ TEST_F(QuotaTest, PublicPartsAndReplacementsHaveToFit) {
             ErrorCode::kLimit);
   EXPECT_EQ(objects(), 1u);
   EXPECT_TRUE(change(store_, *catalogue_, capped, roomy.get()));
-  const auto both = quota_of(2 * file_.size() + 10);  // too little for the new model's public part
+  const auto both = quota_of(2 * file_.size() + 10);  // too small for the new model's public part
   EXPECT_FALSE(replace(store_, *catalogue_, other, {}, {.id = id, .quota = both.get()}));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the client against a store that fails in the ways in which real stores sometimes fail.
+// Tests the S3 client against a store with the failures that real stores sometimes have.
 #include "server/store/s3_client.h"
 
 #include <arpa/inet.h>
@@ -19,7 +19,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Sends one scripted response on each connection, and then closes the connection.
+// A store that sends one scripted response on each connection, and then closes the connection.
 class ScriptedStore {
  public:
   explicit ScriptedStore(std::vector<std::string> answers)

@@ -28,5 +28,27 @@ TEST(PlainText, IsPlainForAllBytes) {
   EXPECT_TRUE(is_plain_text(as_plain_text(all)));
 }
 
+TEST(Lines, AreJoinedAsPlainTextAndSplitAgain) {
+  const std::vector<std::string> lines = {"1 face of B\u00fcste dropped", "two\nlines \x1b[2J"};
+  const std::string text = joined_lines(lines);
+  EXPECT_EQ(text, lines[0] + "\ntwo\\x0alines \\x1b[2J");
+  EXPECT_EQ(lines_of(text), (std::vector<std::string>{lines[0], "two\\x0alines \\x1b[2J"}));
+  EXPECT_EQ(joined_lines({}), "");
+  EXPECT_EQ(lines_of("").size(), 0u);
+}
+
+TEST(Lines, ThatDoNotFitAreCounted) {
+  const std::vector<std::string> lines(100, std::string(1'000, 'x'));
+  const std::string text = joined_lines(lines);
+  EXPECT_TRUE(is_paragraphs(text));
+  EXPECT_EQ(lines_of(text).size(), 17u);
+  EXPECT_EQ(lines_of(text).back(), "… and 84 more; `vitrine build` lists all");
+}
+
+TEST(Lines, ThatAreTooLongDoNotHideTheOthers) {
+  EXPECT_EQ(joined_lines(std::vector{std::string(kMaxParagraphBytes, 'x'), std::string("short")}),
+            "short\n… and 1 more; `vitrine build` lists all");
+}
+
 }  // namespace
 }  // namespace vitrine::server

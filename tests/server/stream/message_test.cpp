@@ -64,10 +64,10 @@ TEST(Message, ReadsWhatIsSaidOfModels) {
   ASSERT_TRUE(open) << open.error().message;
   EXPECT_EQ(std::get<OpenMessage>(*open).model, 3);
   EXPECT_EQ(std::get<OpenMessage>(*open).id, "abc");
-  EXPECT_TRUE(std::get<OpenMessage>(*open).head);
+  EXPECT_TRUE(std::get<OpenMessage>(*open).wants_head);
   EXPECT_EQ(std::get<CloseMessage>(*parse_message(R"({"type":"close","model":3})")).model, 3);
-  EXPECT_TRUE(std::get<PauseMessage>(*parse_message(R"({"type":"pause"})")).pause);
-  EXPECT_FALSE(std::get<PauseMessage>(*parse_message(R"({"type":"resume"})")).pause);
+  EXPECT_TRUE(std::get<PauseMessage>(*parse_message(R"({"type":"pause"})")).is_pause);
+  EXPECT_FALSE(std::get<PauseMessage>(*parse_message(R"({"type":"resume"})")).is_pause);
 }
 
 TEST(Message, WhatIsWrittenIsRead) {
@@ -77,7 +77,7 @@ TEST(Message, WhatIsWrittenIsRead) {
                   .height = 600,
                   .bytes = 5000};
   const ClientMessage messages[] = {
-      OpenMessage{.model = 2, .id = "abc", .head = true},
+      OpenMessage{.model = 2, .id = "abc", .wants_head = true},
       CloseMessage{2},
       WantMessage{1, 7, Want(WantTriangles{500})},
       WantMessage{1, 7, Want(WantBytes{500})},

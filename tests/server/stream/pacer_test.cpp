@@ -15,12 +15,12 @@
 namespace vitrine::server {
 namespace {
 
-// Simulates a link with an unlimited queue. It delivers bytes at `rate`. Acknowledgements arrive
-// after a round trip.
+// Simulates a link with an unlimited queue. The link delivers `rate` bytes per second.
+// Acknowledgements arrive one round trip later.
 class Link {
  public:
   double rate = 100'000;  // rate of the link, in bytes per second
-  double delay = 0.02;    // round trip, seconds
+  double delay = 0.02;    // round-trip time in seconds
   std::size_t busy_streams = 1;
 
   // Sends as much as the pacer allows for `seconds` seconds.
@@ -39,7 +39,7 @@ class Link {
 
   Pacer::Time now{};
   std::uint64_t arrived = 0;
-  double longest = 0;  // longest time in the queue and on the link, seconds
+  double longest = 0;  // longest time of a slice in the queue and on the link, in seconds
 
  private:
   struct Packet {
@@ -152,7 +152,8 @@ TEST(Pacer, TakesNoMoreThanWasSentForArrived) {
   EXPECT_EQ(pacer.in_flight(), 0u);
 }
 
-// The pacer can measure the delay of a link only while no queue adds to it.
+// Tests that a long transfer does not lengthen the queue of the link. The pacer can measure the
+// link's delay only while no queue adds to it.
 TEST(Pacer, ALongTransferDoesNotLengthenItsQueue) {
   Link link;
   Pacer pacer;
@@ -189,7 +190,8 @@ INSTANTIATE_TEST_SUITE_P(Crowds, FarPacerTest,
                          ::testing::Values(FarCase{20, true}, FarCase{500, true},
                                            FarCase{20, false}, FarCase{100, false}));
 
-// Connections whose slices and acknowledgements wait in one queue, first come, first served.
+// Simulates several connections whose slices and acknowledgements wait in one common queue, first
+// come, first served.
 class SharedQueue {
  public:
   SharedQueue(std::size_t size, double rate) : members_(size), rate_(rate) {
@@ -197,8 +199,8 @@ class SharedQueue {
       member.pacer.know_delay(Pacer::Duration(kDelay));
   }
 
-  // Simulates until the time `until`. Three quarters of the connections begin in the first two
-  // seconds. The others begin when the first ones have filled the queue.
+  // Simulates the time up to `until`. Three quarters of the connections begin in the first two
+  // seconds. The others begin when the first connections have filled the queue.
   void run(double until) {
     for (; now_ < until; now_ += 0.001) {
       for (; !queue_.empty() && queue_.top().at <= now_; queue_.pop())
@@ -272,8 +274,8 @@ void PrintTo(const CrowdCase& one, std::ostream* out) {
 
 class PacerCrowdTest : public ::testing::TestWithParam<CrowdCase> {};
 
-// Checks the shares only after 20 s, twice the interval at which the pacer measures the link's
-// delay again.
+// Checks the shares only after 20 s. This is twice the interval at which the pacer measures the
+// link's delay again.
 TEST_P(PacerCrowdTest, ComesToEqualShares) {
   SharedQueue queue(GetParam().members, GetParam().rate);
   queue.run(20);

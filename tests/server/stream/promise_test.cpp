@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests WantSeconds over a slow link: a client asks for the detail that can arrive within a time.
-// The server promises a number of bytes, which must arrive within that time.
+// Tests the detail request WantSeconds over a slow link: a client asks for the detail that can
+// arrive within a given time. The server promises a number of bytes, which must arrive within that
+// time.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -46,7 +47,7 @@ class PromiseTest : public ::testing::Test {
     ASSERT_TRUE(state.receive(WantMessage{model, 0, target}, time()));
   }
 
-  // Simulates the link until the time `until`. Slices arrive in order, and each is acknowledged at
+  // Simulates the link up to the time `until`. Slices arrive in order. Each is acknowledged at
   // once.
   void run(double until, const Rate& rate) {
     constexpr double kStep = 0.001;
@@ -62,7 +63,7 @@ class PromiseTest : public ::testing::Test {
     }
   }
 
-  // Returns the bytes of the chunks that have arrived completely by the time `by`, plus kHeadBytes.
+  // Returns kHeadBytes plus the bytes of all chunks that have arrived completely by the time `by`.
   std::uint64_t held(std::uint16_t model, double by) const {
     std::uint64_t bytes = kHeadBytes;
     for (const auto& [at, slice] : arrived) {
@@ -79,12 +80,12 @@ class PromiseTest : public ::testing::Test {
     return bytes;
   }
 
-  // Expects that the server has kept the promises that it made from the time `from` on. Skips
-  // promises made before the connection's rate was measured.
+  // Expects that the server has kept all promises made after the time `from`. Skips promises made
+  // before the connection's rate was measured.
   void expect_kept(double from, double times = 1.05) const {
     std::size_t checked = 0;
     for (const auto& [at, promise] : said) {
-      if (!promise.measured || at < from) continue;
+      if (!promise.is_measured || at < from) continue;
       ++checked;
       const double by = at + times * promise.seconds + 0.02;
       EXPECT_GE(held(promise.model, by), promise.bytes)
@@ -182,8 +183,8 @@ TEST_F(PromiseTest, CountsAModelThatJoinsAndOneThatIsPaused) {
   expect_kept(1.01);
 }
 
-// The link carries nothing during the silence. Before and after the silence, the link must carry
-// most of its capacity.
+// The link carries no data during the silence. Before and after the silence, the server must use
+// most of the link's capacity.
 TEST_F(PromiseTest, ARequestForSecondsOutlivesASilence) {
   constexpr double kRate = 200'000;
   constexpr std::pair<double, double> kSilences[] = {{1.5, 1.8}, {1.5, 2.5}, {0.5, 3}, {2, 3.2}};

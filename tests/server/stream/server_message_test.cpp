@@ -27,7 +27,7 @@ TEST(ServerMessage, IsWrittenAsTheProtocolSays) {
                                    .error = 0.5,
                                    .seconds = 1.5,
                                    .bytes_per_second = 100.5,
-                                   .measured = true}),
+                                   .is_measured = true}),
             R"({"type":"promise","model":0,"turn":4,"level":6,"bytes":10,"triangles":20,)"
             R"("error":0.5,"seconds":1.5,"bytes_per_second":100.5,"measured":true})");
 }
@@ -35,7 +35,8 @@ TEST(ServerMessage, IsWrittenAsTheProtocolSays) {
 TEST(ServerMessage, WhatIsWrittenIsRead) {
   const ServerMessage messages[] = {
       ModelMessage{.model = 3, .sha256 = "ab", .chunks = 3, .slice_bytes = 5, .credit = 7},
-      PromiseMessage{.model = 1, .level = 6, .error = 0.5, .seconds = 1.5, .measured = true},
+      ModelMessage{.model = 4, .sha256 = "ab", .presentation = R"({"scale":2})"},
+      PromiseMessage{.model = 1, .level = 6, .error = 0.5, .seconds = 1.5, .is_measured = true},
       DoneMessage{.model = 1, .turn = 2, .bytes = 5, .triangles = 7},
       ClosedMessage{.model = 1, .reason = "as asked"},
   };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests a connection on which something throws, as if memory ran out. The connection must end and
-// leave nothing behind.
+// Tests how a connection ends if something throws, as if memory ran out, or if its model is no
+// longer current. The connection must leave nothing behind.
 #include "server/stream/stream_session.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -34,22 +35,26 @@ using asio::ip::tcp;
 
 // A host that throws when a model is looked up. It also throws after a slice is sent if the test
 // sets throws_on_sent.
-class ThrowingHost : public StreamHost {
+class TestHost : public StreamHost {
  public:
   asio::awaitable<Expected<StreamedModel>> find(std::string) override {
     throw std::bad_alloc();
     co_return StreamedModel();
   }
-  asio::awaitable<bool> is_current(StreamedModel) override { co_return true; }
-  void shows(std::vector<StreamedModel>) override {}
+  asio::awaitable<bool> is_current(StreamedModel) override { co_return has_current_model; }
+  void shows(std::vector<StreamedModel> models) override { shown = models.size(); }
   void on_drain(std::function<void()>) override {}
   void waits_for_peer(bool) override {}
-  void sent(std::uint64_t) override {
+  void sent(std::uint64_t bytes) override {
+    sent_bytes += bytes;
     if (throws_on_sent) throw std::bad_alloc();
   }
   void failed(std::string_view fault) override { faults.emplace_back(fault); }
 
   bool throws_on_sent = false;
+  std::atomic<bool> has_current_model = true;
+  std::size_t shown = 0;         // number of models that are open
+  std::uint64_t sent_bytes = 0;  // sum of all slices
   std::vector<std::string> faults;
 };
 
@@ -78,19 +83,20 @@ class WebsocketTest : public ::testing::TestWithParam<bool> {
     return client;
   }
 
-  // Expects that serve_stream() returns, that nothing can use the socket any more, and that the
-  // only fault is the std::bad_alloc of the host.
-  void expect_end() {
+  // Expects that serve_stream() has returned and released the socket, and that these faults were
+  // reported to the host.
+  void expect_end(const std::vector<std::string>& faults) {
     ASSERT_EQ(ended.wait_for(std::chrono::seconds(20)), std::future_status::ready);
     EXPECT_NO_THROW(ended.get());
     io.stop();
     thread.join();
     EXPECT_TRUE(socket.expired());
-    EXPECT_EQ(host.faults, std::vector<std::string>{std::bad_alloc().what()});
+    EXPECT_EQ(host.faults, faults);
   }
 
   StreamOptions options;
-  ThrowingHost host;
+  TestHost host;
+  const std::vector<std::string> no_memory{std::bad_alloc().what()};
 
  private:
   asio::awaitable<void> serve() {
@@ -125,7 +131,7 @@ TEST_P(WebsocketTest, WhatIsThrownWhileReadingEndsTheConnection) {
   client.send_text(R"({"type":"open","model":1,"id":"x"})");
   EXPECT_EQ(client.receive().close_code(), 1011);
   client.send_close();
-  expect_end();
+  expect_end(no_memory);
 }
 
 TEST_P(WebsocketTest, WhatIsThrownWhileWritingEndsTheConnection) {
@@ -134,7 +140,20 @@ TEST_P(WebsocketTest, WhatIsThrownWhileWritingEndsTheConnection) {
   client.send_text(R"({"type":"want","level":1})");
   EXPECT_EQ(client.receive().kind, WebSocketFrame::kBinary);
   EXPECT_EQ(client.receive().close_code(), 1011);
-  expect_end();  // although this client never answers the close frame
+  expect_end(no_memory);  // although this client never answers the close frame
+}
+
+TEST_P(WebsocketTest, ADetailRequestForAModelThatIsNoLongerCurrentEndsTheConnection) {
+  WebSocketClient client = connect();
+  host.has_current_model = false;
+  client.send_text(R"({"type":"want","level":1})");
+  const WebSocketFrame frame = client.receive();
+  ASSERT_EQ(frame.kind, WebSocketFrame::kClose);
+  EXPECT_EQ(frame.close_code(), 1012);
+  client.send_close();
+  expect_end({});
+  EXPECT_EQ(host.sent_bytes, 0u);
+  EXPECT_EQ(host.shown, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(, WebsocketTest, ::testing::Bool(), [](const auto& tls) {

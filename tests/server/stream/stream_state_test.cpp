@@ -44,8 +44,8 @@ class StreamStateTest : public ::testing::Test {
     receive(WantMessage{model, ++turn, target});
   }
 
-  // Returns the next output over a link of `rate` bytes per second. Acknowledges each slice at
-  // once.
+  // Returns the next output, sent over a link of `rate` bytes per second. Acknowledges each slice
+  // at once.
   StreamOutput take(double rate) {
     const StreamOutput output = state.next(now);
     if (const auto* slice = std::get_if<Slice>(&output)) {
@@ -61,8 +61,8 @@ class StreamStateTest : public ::testing::Test {
     return output;
   }
 
-  // Takes everything that is sent without further messages. Returns the chunks, as (model, level),
-  // of which the first slice was sent.
+  // Takes all output until the server waits for another message. Returns (model, level) of each
+  // chunk whose first slice was sent.
   using Chunks = std::vector<std::pair<int, int>>;
   Chunks pull(double rate = 1e6) {
     Chunks started;
@@ -186,7 +186,7 @@ TEST_F(StreamStateTest, ANewRequestInterruptsTheChunkUnderWay) {
   EXPECT_EQ(rest.header.offset, first.length) << "it continues where it stopped";
 }
 
-// The box of the test's model is the single point at the origin.
+// The bounding box of the test's model is a single point, the origin.
 TEST_F(StreamStateTest, ACameraIsSentWhatItSees) {
   View view{.camera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 100, 1},
             .field_of_view = 30,
@@ -298,7 +298,7 @@ class SecondsTest : public StreamStateTest {
 TEST_F(SecondsTest, TheFirstPromiseIsAGuessThatSaysSo) {
   want(WantSeconds{2}, 1);
   const auto promise = std::get<PromiseMessage>(state.next(now));
-  EXPECT_FALSE(promise.measured);
+  EXPECT_FALSE(promise.is_measured);
   EXPECT_EQ(promise.bytes_per_second, Pacer::kFirstGuess);
   EXPECT_EQ(promise.turn, 1u);
   EXPECT_EQ(promise.bytes, kHead + 1 * kChunk) << "64 kB: one chunk of 40 kB is in time";
@@ -332,7 +332,7 @@ TEST_F(SecondsTest, AsMuchComesAsTheConnectionBrings) {
   EXPECT_NEAR((now - start).count(), 2, 0.1);
   EXPECT_GE(static_cast<double>(bytes), 0.9 * 800'000);
   ASSERT_GE(promises.size(), 2u);
-  EXPECT_TRUE(promises.back().measured);
+  EXPECT_TRUE(promises.back().is_measured);
   EXPECT_NEAR(static_cast<double>(promises.back().bytes) / static_cast<double>(done->bytes), 1,
               0.1);
 }

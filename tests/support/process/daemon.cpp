@@ -31,7 +31,7 @@ Child start(const std::vector<std::string>& arguments, const std::string& termin
   const pid_t id = ::fork();
   if (id == 0) {
     if (!terminal.empty()) {
-      ::setsid();  // so that the terminal opened next becomes the controlling terminal
+      ::setsid();  // makes the terminal opened next the controlling terminal
       ::dup2(::open(terminal.c_str(), O_RDWR), STDIN_FILENO);
     }
     ::dup2(ends[1], STDOUT_FILENO);

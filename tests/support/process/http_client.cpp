@@ -171,7 +171,7 @@ WebSocketFrame WebSocketClient::receive() {
       length = (length << 8) | static_cast<unsigned char>(byte);
     }
   }
-  return {static_cast<WebSocketFrame::Kind>(head[0] & 0x0f), client_->read_exactly(length)};
+  return {static_cast<WebSocketFrame::FrameKind>(head[0] & 0x0f), client_->read_exactly(length)};
 }
 
 }  // namespace vitrine::test

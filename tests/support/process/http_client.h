@@ -66,7 +66,7 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::st
                     const std::string& method = "GET");
 
 struct WebSocketFrame {
-  enum Kind { kText = 1, kBinary = 2, kClose = 8, kPing = 9, kPong = 10 } kind;
+  enum FrameKind { kText = 1, kBinary = 2, kClose = 8, kPing = 9, kPong = 10 } kind;
   std::string payload;
 
   int close_code() const {  // the code in the payload of a kClose frame

@@ -42,7 +42,7 @@ test("each of several models gets the files beside it", () => {
 });
 
 test("files without a model stay as they are, so that the server can name them", () => {
-  expect(names(uploadsOf([file("a.fbx"), file("b.png")]))).toEqual(["a.fbx", "b.png"]);
+  expect(names(uploadsOf([file("a.max"), file("b.png")]))).toEqual(["a.max", "b.png"]);
 });
 
 test("the files in a dropped folder are found", async () => {

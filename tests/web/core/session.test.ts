@@ -31,6 +31,14 @@ describe("Session", () => {
     expect(source.requests).toEqual([]);
   });
 
+  test("tells how the source presents the model", async () => {
+    const presentation = { rotation: [0, 0, 0, 1], scale: 2, view: null, poster: null, light: null };
+    const { source, sink, session } = setUp(1), told = vi.spyOn(sink, "opened");
+    Object.assign(source, { presentation: JSON.stringify(presentation) });
+    await session.open();
+    expect(told.mock.calls[0]?.[0].presentation).toEqual(presentation);
+  });
+
   test("fetches the rest of a head that does not fit the first request", async () => {
     const { source, session, decoder } = setUp(1, kHeader);
     const open = session.open();

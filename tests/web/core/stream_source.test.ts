@@ -54,6 +54,14 @@ beforeEach(() => {
 afterEach(() => vi.unstubAllGlobals());
 
 describe("StreamSource", () => {
+  test("knows how the model is presented before its head has arrived", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1"), head = source.head(never), socket = FakeSocket.last;
+    socket.onmessage?.({ data: JSON.stringify({ type: "model", model: 0, sha256: "ab", presentation: '{"scale":2}' }) });
+    socket.slice(0, 0, 0, 3, [1, 2, 3]);
+    await head;
+    expect(source.presentation).toBe('{"scale":2}');
+  });
+
   test("says what it wants and holds, and joins the slices of a chunk", async () => {
     const source = new StreamSource("http://host/api/v1", "m1");
     source.want({ level: 2 }, [0, 1, 4]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { environmentMap, kMapHeight, kMapWidth } from "@element/room/environment-map.ts";
+import { environmentMap, kMapHeight, kMapWidth, kPlainHeight, kPlainWidth, plainMap } from "@element/room/environment-map.ts";
 import { radiance } from "@element/room/radiance.ts";
 import { DataUtils } from "three";
 
@@ -54,6 +54,19 @@ describe("an environment map", () => {
   });
 });
 
+describe("a plain map", () => {
+  test("has the directions of an equirectangular picture of three.js, from below to above", () => {
+    const towards = (axis: number) => plainMap((direction) => 2 + (direction[axis] as number)), middle = kPlainHeight / 2;
+    const texel = (map: Uint16Array, u: number, row: number) => at(map, 4 * (row * kPlainWidth + u * kPlainWidth));
+    expect(texel(towards(1), 0.5, 0)).toBeCloseTo(1, 2);
+    expect(texel(towards(1), 0.5, kPlainHeight - 1)).toBeCloseTo(3, 2);
+    expect(texel(towards(0), 0.5, middle)).toBeCloseTo(3, 1);
+    expect(texel(towards(0), 0, middle)).toBeCloseTo(1, 1);
+    expect(texel(towards(2), 0.75, middle)).toBeCloseTo(3, 1);
+    expect(texel(towards(2), 0.25, middle)).toBeCloseTo(1, 1);
+  });
+});
+
 describe("the room", () => {
   const towards = (...vector: Triple) => radiance(vector.map((part) => part / Math.hypot(...vector)) as unknown as Triple);
 
@@ -63,8 +76,8 @@ describe("the room", () => {
   });
 
   test("has white walls and boxes that the lamp lights", () => {
-    // The white floor below the eye. The lamp of intensity 400 is 15.05 above the floor, and 0.5
-    // aside in x and in z.
+    // This direction hits the white floor below the eye. The lamp of intensity 400 is 15.05 above
+    // the floor and displaced by 0.5 in x and in z.
     const far = Math.hypot(0.5, 15.05, 0.5), falloff = (1 - (far / 28) ** 4) ** 2 / far ** 2;
     expect(towards(0, -1, 0)).toBeCloseTo((400 * falloff * 15.05) / far / Math.PI, 6);
     expect(towards(-10.906, -4.5, 1.846)).toBeGreaterThan(0);

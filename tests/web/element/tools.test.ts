@@ -7,6 +7,7 @@ import { apiOf, exportOf, linkTo, settingIn } from "@element/tools/links.ts";
 import { unpackDepth } from "@element/tools/pick.ts";
 import { pixelsPerUnit, roundLength } from "@element/tools/scale-bar.ts";
 import { cuttingPlane } from "@element/tools/section.ts";
+import { directionOf } from "@element/viewpoint.ts";
 import { anglesOf, formatView, heightOf, offsetOf, parseView, sideOf } from "@element/tools/view.ts";
 
 describe("views", () => {
@@ -34,6 +35,11 @@ describe("views", () => {
   test.each(["", "1,2,3", "1,2,0,0,0,0", "1,2,-3,0,0,0", "0,91,1,0,0,0", "a,b,c,d,e,f", "1,2,3,4,5,6,7"])(
     "are not read out of '%s'", (text) => expect(parseView(text)).toBeUndefined());
 });
+
+test.each([[0, 0, [0, 0, 1]], [90, 0, [1, 0, 0]], [0, 90, [0, 1, 0]], [-90, 0, [-1, 0, 0]]])(
+  "azimuth %s and elevation %s look from %o", (azimuth, elevation, direction) => {
+    directionOf({ azimuth, elevation }).toArray().forEach((part, axis) => expect(part).toBeCloseTo(direction[axis] as number));
+  });
 
 describe("links", () => {
   const view = { azimuth: 30, elevation: -10, distance: 2, target: [0, 1, 0] as [number, number, number] };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the GLB files of `vitrine decode` with Khronos' validator and with three.js, whose decoders of Draco and meshopt are those
-// of browsers. node --test glb.test.mjs
+// Tests the GLB files of `vitrine decode` with Khronos' validator and with three.js. The decoders of Draco and meshopt are those
+// that browsers use.
+// node --test glb.test.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -25,13 +26,13 @@ before(() => {
 });
 after(() => rmSync(folder, { recursive: true }));
 
-function exported(level, compression) {
+function exported(level, compression, ...more) {
   const out = join(folder, `${level}-${compression}.glb`);
-  vitrine("decode", join(folder, "a.pmesh"), "-o", out, "--force", "--level", `${level}`, "--compression", compression);
+  vitrine("decode", join(folder, "a.pmesh"), "-o", out, "--force", "--level", `${level}`, "--compression", compression, ...more);
   return readFileSync(out);
 }
 
-/** Stands in for three.js' DRACOLoader, which needs the workers of a browser. */
+/** Replaces three.js' DRACOLoader, which needs the workers of a browser. */
 class DracoLoader {
   preload() {}
 
@@ -86,6 +87,16 @@ for (const compression of kCompressions) {
       const { issues } = await validator.validateBytes(new Uint8Array(exported(level, compression)));
       assert.deepEqual(issues.messages.filter(({ severity }) => severity < 2), []);
     }
+  });
+}
+
+for (const compression of kCompressions) {
+  test(`${compression}: a GLB with several levels is valid, and three.js shows the finest`, async () => {
+    const level = levels.length - 1, glb = exported(level, compression, "--lod", "msft");
+    const { issues, info: { totalTriangleCount } } = await validator.validateBytes(new Uint8Array(glb));
+    assert.deepEqual(issues.messages.filter(({ severity }) => severity < 2), []);
+    assert.ok(totalTriangleCount > levels[level].faces, `${totalTriangleCount} triangles in all levels`);
+    assert.equal((await loaded(glb)).corners.length, 3 * levels[level].faces);
   });
 }
 

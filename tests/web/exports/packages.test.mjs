@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the USDZ and 3MF files of `vitrine decode` with three.js: each is the same surface as the GLB. node --test packages.test.mjs
+// Tests the USDZ and 3MF files of `vitrine decode` with three.js: each must contain the same surface as the GLB. node --test
+// packages.test.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -75,14 +76,17 @@ test("three.js finds the texture and its coordinates in a USDZ", async () => {
   assert.deepEqual([...bytes.subarray(0, 3)], [0xff, 0xd8, 0xff], "a JPEG");
 });
 
-/** Stands in for a browser's decoder of pictures. Returns the list of the URLs that it is asked for. */
+/**
+ * Replaces a browser's decoder of pictures. Returns a list that records the URLs of the requested
+ * pictures.
+ */
 function standInForPictures() {
   const asked = [];
   globalThis.document = { createElementNS: () => ({ addEventListener() {}, removeEventListener() {}, set src(url) { asked.push(url); } }) };
   return asked;
 }
 
-/** Stands in for a browser's XML parser: adds the selectors by names of elements that three.js uses. */
+/** Replaces a browser's XML parser. Adds the methods that three.js uses to find elements by name. */
 function standInForXml() {
   const node = new DOMParser().parseFromString("<a/>", "text/xml");
   const all = (root, names) => names.split(" ").reduce((nodes, name) => nodes.flatMap((each) => Array.from(each.getElementsByTagNameNS("*", name))), [root]);

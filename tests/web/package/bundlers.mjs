@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds pages with each bundler, as web/README.md says. `folder` is the folder of an Installed.
-// Entries are paths of the pages' scripts below `folder`. The bundles are written to `outDir`.
+// Builds pages with each bundler, as web/README.md says. `folder` is the folder of an Installed
+// (installed.mjs). Entries are paths of the pages' scripts below `folder`. The bundles are written
+// to `outDir`.
 import vue from "@vitejs/plugin-vue";
 import { build as esbuild } from "esbuild";
 import { cpSync } from "node:fs";
@@ -30,8 +31,8 @@ export async function buildWithWebpack(folder, entry, outDir) {
 }
 
 /**
- * esbuild does not change `new URL(…, import.meta.url)`, so the viewer's files must be copied. They
- * go to `assets`, by default beside the bundle.
+ * Builds a page with esbuild. Copies the viewer's files to `assets`, by default beside the bundle,
+ * because esbuild does not change `new URL(…, import.meta.url)`.
  */
 export async function buildWithEsbuild(folder, entry, outDir, assets = outDir) {
   await esbuild({ entryPoints: [join(folder, entry)], outdir: outDir, bundle: true, splitting: true, format: "esm", logLevel: "error" });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs the npm package as it would be published, and installs it in a temporary folder. The other
-// packages there are the pinned ones of this test's node_modules.
+// Packs the npm package as it would be published, and installs it in a temporary folder. Links the
+// folder's other packages from this test's node_modules, which has pinned versions.
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, mkdtempSync, readdirSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the npm package as it would be published: its contents, its TypeScript types, what it adds to a bundle, and pages that
-// bundlers have built with it. node --test package.test.mjs
+// Tests the npm package as it would be published: its contents, its TypeScript types, and what it adds to a bundle. Also tests
+// pages that bundlers have built with the package.
+// node --test package.test.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -13,7 +14,10 @@ import { buildForServer, buildWithEsbuild, buildWithVite, buildWithWebpack, star
 import { Installed } from "./installed.mjs";
 import { kModel, pageOf, serve } from "./site.mjs";
 
-/** The strictest policy under which the viewer works. web/README.md has it, too. */
+/**
+ * The strictest content security policy under which the viewer works. web/README.md states the same
+ * policy.
+ */
 const kPolicy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'; style-src 'self'; img-src 'self'";
 
 let installed, browser;
@@ -103,7 +107,7 @@ describe("a server", () => {
   });
 });
 
-/** Opens `url` and waits until its viewer shows the whole model or an error. Returns that event, and the page. */
+/** Opens `url` and waits until its viewer shows the whole model or an error. Returns the event and the page. */
 async function visit(url) {
   const viewer = await ViewerPage.open(browser, url, { attributes: {} });
   await viewer.page.waitForFunction(() => window.seen.some(({ type }) => type === "load" || type === "error"), null, { timeout: 60_000 });
@@ -111,8 +115,8 @@ async function visit(url) {
 }
 
 /**
- * Checks that the page shows its models without errors or warnings, such as that of a second instance of three.js. An
- * element of the page must match the selector `mark`.
+ * Checks that the page shows its models without errors or warnings, such as the warning about a second instance of
+ * three.js. An element of the page must match the selector `mark`.
  */
 async function checkPage(url, mark) {
   const { viewer, event } = await visit(url);

@@ -9,7 +9,7 @@ const kTypes = { js: "text/javascript", wasm: "application/wasm", html: "text/ht
 export const kModel = new URL("../../golden/parts_regions_coloured.pmesh", import.meta.url);
 const kStyle = "progressive-mesh { display: block; width: 300px; height: 300px }";
 
-/** The page with the script /NAME.js. */
+/** Returns the HTML of a page that loads the script /NAME.js. */
 export const pageOf = (name) => `<!doctype html><link rel="icon" href="/style.css"><link rel="stylesheet" href="/style.css">
   <title>${name}</title><body><script type="module" src="/${name}.js"></script>`;
 

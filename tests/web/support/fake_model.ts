@@ -106,7 +106,7 @@ export class FakeDecoder implements ModelDecoder {
   }
 }
 
-/** A request that the test has yet to answer. */
+/** A request that the test has not answered yet. */
 export interface Request {
   range: ByteRange;
   signal: AbortSignal;
@@ -187,7 +187,7 @@ export class RecordingSink implements Sink {
   }
 }
 
-/** Waits until all code has run that waits only for the event loop, not for timers or responses. */
+/** Waits until all code has run that does not wait for timers or responses. */
 export async function settle(): Promise<void> {
   for (let i = 0; i < 30; ++i) await new Promise((resolve) => setImmediate(resolve));
 }

@@ -23,7 +23,7 @@ test.each([[0.02, "m", 20, "mm"], [0.5, "mm", 0.5, "mm"], [2, "in", 50.8, "mm"],
   expect(name).toBe(shownUnit);
 });
 
-const kShared = ["format", "museum", "notes", "quality", "relief", "studio", "surface"]; // words that some languages write like English
+const kShared = ["format", "museum", "notes", "quality", "relief", "studio", "surface"]; // words that other languages share with English
 
 test.each(["de", "es", "fr", "it"])("the language %s says everything, in words of its own", async (language) => {
   const [en, other] = await Promise.all([textsIn("en"), textsIn(language)]);

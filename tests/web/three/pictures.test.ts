@@ -8,13 +8,16 @@ import type { PictureRole, TextureInfo } from "@core/types.ts";
 const kSides = [256, 1024, 4096], kRoles: PictureRole[] = ["colour", "normal"];
 const limits: PictureLimits = { side: 8192, texels: Infinity, savesData: false };
 
-/** Returns a texture whose pictures have the indices 0 and 1 (256 pixels), 2 and 3 (1024), 4 and 5 (4096), colour first. */
+/**
+ * Returns a texture with six pictures: 0 and 1 with sides of 256 pixels, 2 and 3 of 1024, 4 and 5 of 4096. The first
+ * picture of each pair has the colours.
+ */
 function texture(roles = kRoles): TextureInfo {
   const pictures = kSides.flatMap((side) => roles.map((role) => ({ role, side, offset: 0, length: 1, sha256: "" })));
   return { atlasOffset: 0, atlasLength: 0, alphaMode: "opaque", alphaCutoff: 0, isDoubleSided: false, isUnlit: false, pictures, inHead: 1 };
 }
 
-/** Answers all requests, and returns them in order, each as index and side. */
+/** Answers all requests. Returns the index and the side of each requested picture, in order. */
 function all(pictures: Pictures, pixels: number, most = limits): [number, number][] {
   const asked: [number, number][] = [];
   for (let next = pictures.next(pixels, most); next; next = pictures.next(pixels, most)) {
@@ -125,7 +128,7 @@ test("three maps of 4096² on a page of 1440 × 900 take at most 40 MB of graphi
   camera.position.copy(kViewpoint).setLength(distanceFor(radius, camera.aspect, camera.fov));
   camera.updateMatrixWorld();
   all(pictures, sizeOnScreen(box, new Matrix4(), camera, 900));
-  expect(pictures.graphicsBytes).toBeGreaterThan(10e6); // not merely the coarsest pictures
+  expect(pictures.graphicsBytes).toBeGreaterThan(10e6); // more than the coarsest pictures need
   expect(pictures.graphicsBytes).toBeLessThanOrEqual(40e6);
   all(pictures, 965); // the model fills the page
   expect(pictures.graphicsBytes).toBeLessThanOrEqual(40e6);

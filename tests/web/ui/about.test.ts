@@ -10,7 +10,7 @@ test("a snippet names the page's own server and the model, which can be turned",
   const text = snippet(model, "https://museum.example");
   expect(text.split("\n")).toEqual([
     '<script type="module" src="https://museum.example/progressive-mesh.js"></script>',
-    '<progressive-mesh src="https://museum.example/api/v1/models/a" alt="Bust" camera-controls ' +
+    '<progressive-mesh src="https://museum.example/api/v1/models/a" alt="Bust" camera-controls ar ' +
       'poster="https://museum.example/api/v1/models/a/poster.png?width=960" style="width: 100%; aspect-ratio: 4 / 3"></progressive-mesh>',
   ]);
 });
@@ -20,7 +20,7 @@ test("what somebody has written into a title stays a title", () => {
 });
 
 test("a frame shows the object's page", () => expect(frame(model, "https://museum.example")).toBe(
-  '<iframe src="https://museum.example/models/a" title="Bust" allow="fullscreen; web-share" style="width: 100%; aspect-ratio: 4 / 3; border: 0"></iframe>'));
+  '<iframe src="https://museum.example/models/a" title="Bust" allow="fullscreen; web-share; xr-spatial-tracking" style="width: 100%; aspect-ratio: 4 / 3; border: 0"></iframe>'));
 
 test.each([
   ["glb", "highest", "/api/v1/models/a/export.glb?level=highest"],

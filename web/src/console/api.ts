@@ -69,7 +69,7 @@ export class Api {
 
   /**
    * Returns x, y and z in mm of a scan's points, starting at point number `from`. One response may
-   * not contain all of them.
+   * contain only some of the points.
    */
   async points(scan: string, from: number, signal: AbortSignal): Promise<Float32Array> {
     const bytes = await (await this.#ask(`/scans/${scan}/points?from=${from}`, { signal })).arrayBuffer();

@@ -25,7 +25,7 @@ export interface Visit {
 /** Fills the view and returns the page's title, which is also its heading. */
 export type ConsolePage = (visit: Visit) => Promise<string> | string;
 
-/** Resolves after `milliseconds`. Rejects if the operator leaves the page before. */
+/** Resolves after `milliseconds`. Rejects if the operator leaves the page first. */
 export function pause(milliseconds: number, signal: AbortSignal): Promise<void> {
   return new Promise((resolve, reject) => {
     const leave = () => (clearTimeout(timer), reject(signal.reason));

@@ -41,8 +41,8 @@ const isHidden = ({ path }: Dropped): boolean => path.split("/").some((part) => 
 
 /**
  * Returns the files to upload. If files other than models and packages were dropped, each model
- * becomes a tar file with all these files. Dropping the same files again gives the same tar, so
- * that an interrupted upload can be resumed.
+ * becomes a tar file that also contains all of these other files. Dropping the same files again
+ * gives the same tar, so that an interrupted upload can be resumed.
  */
 export function uploadsOf(dropped: Dropped[]): File[] {
   const seen = dropped.filter((one) => !isHidden(one)).sort((a, b) => (a.path < b.path ? -1 : 1));

@@ -2,7 +2,7 @@
 // Form fields and buttons with error messages beside them. Each message names the field and the
 // next step.
 import { h } from "../ui/dom.ts";
-import { Problem, type Fault } from "./problem.ts";
+import { Problem, type ParameterFault } from "./problem.ts";
 import { texts } from "./texts/index.ts";
 
 type Control = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
@@ -14,6 +14,7 @@ export interface FieldOptions {
   value?: string | number | boolean | null | undefined;
   type?: "text" | "number" | "checkbox" | "textarea" | "date";
   options?: [value: string, label: string][];
+  suggestions?: readonly [value: string, label: string][]; // the field accepts other texts, too
   min?: number;
   max?: number;
   step?: number | "any";
@@ -29,7 +30,7 @@ export class Alert {
     this.element.replaceChildren();
   }
 
-  show(error: unknown, faults: Fault[] = error instanceof Problem ? error.faults : []): void {
+  show(error: unknown, faults: ParameterFault[] = error instanceof Problem ? error.faults : []): void {
     const list = faults.map(({ parameter, detail }) => h("li", {}, h("code", {}, parameter), `: ${detail}`));
     const trace = error instanceof Problem && error.request ? h("p", { class: "quiet" }, texts.problem.request(error.request)) : null;
     this.element.replaceChildren(h("p", {}, sentence(error)), ...(list.length ? [h("ul", {}, ...list)] : []), ...(trace ? [trace] : []));
@@ -79,7 +80,7 @@ export function button(label: string, alert: Alert, act: () => Promise<unknown>,
 let fields = 0;
 
 /** Creates a form field with its label, and an element below that shows the hint or an error. */
-export function field({ name, label, hint, value, type = "text", options, min, max, step, required }: FieldOptions): HTMLElement {
+export function field({ name, label, hint, value, type = "text", options, suggestions, min, max, step, required }: FieldOptions): HTMLElement {
   const id = `field-${++fields}`;
   const shared = { id, name, required, "aria-describedby": `${id}-note` };
   const control = options
@@ -88,9 +89,10 @@ export function field({ name, label, hint, value, type = "text", options, min, m
       ? h("textarea", { ...shared, rows: 4 }, String(value ?? ""))
       : type === "checkbox"
         ? h("input", { ...shared, type, checked: value === true })
-        : h("input", { ...shared, type, value: value === null || value === undefined ? "" : String(value), min, max, step, autocomplete: "off" });
+        : h("input", { ...shared, type, value: value === null || value === undefined ? "" : String(value), min, max, step, autocomplete: "off", list: suggestions && `${id}-list` });
+  const list = suggestions ? h("datalist", { id: `${id}-list` }, ...suggestions.map(([key, text]) => h("option", { value: key }, text))) : "";
   const note = h("small", { id: `${id}-note`, "data-hint": hint ?? "" }, hint);
-  return h("div", { class: `field ${type}` }, h("label", { for: id }, label), control, note);
+  return h("div", { class: `field ${type}` }, h("label", { for: id }, label), control, list, note);
 }
 
 export type Values = Record<string, string | number | boolean | null>;
@@ -133,7 +135,7 @@ function valueOf(control: Control): string | number | boolean | null {
  * Shows the faults of a problem beside the fields that they name ("metadata.title" names the field
  * "title"). Returns the faults that name no field.
  */
-function place(error: unknown, within: HTMLFormElement): Fault[] {
+function place(error: unknown, within: HTMLFormElement): ParameterFault[] {
   if (!(error instanceof Problem)) return [];
   return error.faults.filter(({ parameter, detail }) => {
     const control = controls(within).find(({ name }) => name === parameter.split(".").pop());

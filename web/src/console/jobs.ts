@@ -5,24 +5,27 @@ import { time } from "../ui/texts/index.ts";
 import type { ConsolePage } from "./desk.ts";
 import type { Desk } from "./desk.ts";
 import { Alert, button, isConfirmed } from "./forms.ts";
-import { Bar, heading, jobBadge, jobLine } from "./parts.ts";
+import { Bar, heading, jobBadge, jobLine, repairList } from "./parts.ts";
 import { texts } from "./texts/index.ts";
 import { isOver, type Job } from "./types.ts";
 
 const words = texts.jobs;
 
-/** A card with a job's state and actions. Call `show` with each new state of the job. */
+/**
+ * A card with a job's state and actions. Call `show` with each new state of the job. If
+ * `opensRepairs` is true, the list of repairs is open when it appears.
+ */
 export class JobCard {
   readonly element = h("li", { class: "card job" });
   readonly #bar = new Bar(words.progress);
   readonly #line = h("p", { class: "quiet" });
   readonly #top = h("p", { class: "row" });
-  readonly #repairs = h("details", { class: "quiet" });
+  readonly #repairs = h("details", { class: "quiet", hidden: true });
   readonly #actions = h("div", { class: "actions" });
   readonly #alert = new Alert();
   #state = "";
 
-  constructor(private readonly desk: Desk) {
+  constructor(private readonly desk: Desk, private readonly opensRepairs = false) {
     this.element.append(this.#top, this.#bar.element, this.#line, this.#repairs, this.#actions, this.#alert.element);
   }
 
@@ -35,10 +38,16 @@ export class JobCard {
     const state = `${job.state} ${job.model} ${job.repairs.length}`;
     if (state === this.#state) return;
     this.#state = state;
-    this.#repairs.hidden = job.repairs.length === 0;
-    this.#repairs.replaceChildren(h("summary", {}, words.repairs), h("ul", {}, ...job.repairs.map((line) => h("li", {}, line))));
+    this.#showRepairs(job);
     this.#top.replaceChildren(h("strong", {}, words.kinds[job.kind]), jobBadge(job), h("span", { class: "quiet" }, [job.scanner, time(job.created)].filter(Boolean).join(" · ")));
     this.#actions.replaceChildren(...this.#choices(job));
+  }
+
+  #showRepairs({ repairs }: Job): void {
+    // Opens the list only when it appears, so that it stays closed once the operator has closed it.
+    if (this.#repairs.hidden && this.opensRepairs) this.#repairs.toggleAttribute("open", true);
+    this.#repairs.hidden = repairs.length === 0;
+    this.#repairs.replaceChildren(h("summary", {}, words.repairs), repairList(repairs));
   }
 
   #choices(job: Job): HTMLElement[] {

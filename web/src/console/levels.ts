@@ -11,7 +11,9 @@ const kWidth = 640, kHeight = 220, kLeft = 64, kBottom = 34, kMargin = 12;
 const kSvg = "http://www.w3.org/2000/svg";
 
 export function levelReport(manifest: Manifest): Node[] {
-  const { levels, lattice, bounding_box: { min, max } } = manifest, unit = manifest.unit || words.units;
+  const { levels, lattice, bounding_box: { min, max } } = manifest;
+  // The report describes the file. If the model is scaled, the numbers in the file are not in the model's unit.
+  const unit = (manifest.presentation.scale === 1 && manifest.unit) || words.units;
   const extent = min.map((low, axis) => measure((max[axis] ?? 0) - low)).join(" × ");
   const rows = levels.map((level, i) => [String(i), count(level.faces), size(level.cumulative_bytes), measure(level.rms_error), measure(level.max_error)]);
   return [

@@ -74,7 +74,7 @@ export class LiveJobs {
     for (const listener of [...this.#listeners]) listener();
   }
 
-  /** Follows the jobs that have the highest priority, and stops following the others. */
+  /** Follows the jobs that have the highest priority, and stops following all other jobs. */
   #follow(): void {
     const wanted = this.#mostWanted();
     for (const [id, one] of this.#followed) if (!wanted.includes(id)) one.abort();

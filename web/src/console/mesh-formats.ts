@@ -11,7 +11,7 @@ const kPackageSuffixes = [".zip", ".tar", ".gz", ".tgz"];
 export const kUploadNames = [...MESH_FORMATS.map(({ name }) => name), "PMESH", "ZIP", "TAR", "GZ"];
 export const kUploadSuffixes = [...kMeshSuffixes, ".pmesh", ...kPackageSuffixes];
 /** Types of the files that a model may refer to. Files of other types may be dropped as well. */
-export const kBesideTypes = [".mtl", ".bin", "image/*"];
+export const kBesideTypes = [".mtl", ".bin", "image/*", ".tga"];
 
 const endsInOneOf = (name: string, suffixes: string[]): boolean => suffixes.some((suffix) => name.toLowerCase().endsWith(suffix));
 export const isMeshName = (name: string): boolean => endsInOneOf(name, kMeshSuffixes);

@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/models/{id}" of a model: viewer, metadata, visibility and build report.
+// The page "#/models/{id}" of a model: viewer, metadata, visibility, build report and repairs.
 import { snippet } from "../ui/about.ts";
 import { copyable } from "../ui/copy.ts";
 import { h } from "../ui/dom.ts";
+import { kLicences, kRightsStatements } from "../ui/rights.ts";
 import { count, date, size, texts as gallery } from "../ui/texts/index.ts";
 import type { ConsolePage, Visit } from "./desk.ts";
 import { Alert, button, field, form, isConfirmed, type Values } from "./forms.ts";
 import { levelReport } from "./levels.ts";
-import { facts, heading, modelBadge } from "./parts.ts";
-import { texts } from "./texts/index.ts";
+import type { Placed, PresentationEditor } from "./presentation.ts";
+import { facts, heading, modelBadge, repairList } from "./parts.ts";
+import { language, texts } from "./texts/index.ts";
 import type { Manifest, ModelRecord } from "./types.ts";
 import { cardOf, dropZone } from "./upload-card.ts";
 
 const words = texts.model;
-const kTexts = ["title", "creator", "rights", "licence", "description", "date", "subject", "identifier", "publisher", "source"] as const;
+const kTexts = ["title", "creator", "rights", "licence", "rights_statement", "description", "date", "period", "place", "subject", "material", "technique",
+  "collection", "identifier", "provenance", "persistent_identifier", "doi", "publisher", "source", "scan_device", "scan_calibration", "scan_date",
+  "scan_software"] as const;
+const kParagraphs: readonly string[] = ["description", "rights", "provenance"];
+const kHints: Partial<Record<(typeof kTexts)[number], string>> = {
+  licence: texts.models.licenceHint, subject: words.severalHint, material: words.severalHint, period: words.severalHint, doi: words.doiHint,
+  persistent_identifier: words.identifierHint,
+};
 
 /**
  * Creates a viewer that shows the model. For a draft, the viewer sends the operator's token, and a
@@ -33,10 +42,14 @@ class ModelEditor {
   readonly #stage = h("div", { class: "stage-box" });
   readonly #side = h("section", { class: "side" });
   readonly #report = h("section", { class: "card", hidden: true });
+  readonly #repairs = h("section", { class: "card", hidden: true });
   readonly #form = h("section", { class: "card" });
+  readonly #setting = h("details", { class: "card setting", ontoggle: () => void this.#openSetting() }, h("summary", {}, words.setting));
+  #editor: PresentationEditor | undefined;
   readonly #title = h("h1", { tabindex: -1 });
   readonly #state = h("span");
   #tag = "";
+  #model: ModelRecord | undefined;
   #shown = ""; // state of the model when the viewer was created
 
   constructor(private readonly visit: Visit, private readonly id: string) {
@@ -46,7 +59,7 @@ class ModelEditor {
   async open(): Promise<string> {
     const { view } = this.visit, model = await this.#read();
     view.append(h("header", { class: "heading" }, this.#title, this.#state),
-      h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#report, this.#replacing()), h("div", {}, this.#side, this.#form)));
+      h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#setting, this.#report, this.#repairs, this.#replacing()), h("div", {}, this.#side, this.#form)));
     this.#show(model);
     void this.#showLevels();
     return model.title || gallery.untitled;
@@ -55,6 +68,7 @@ class ModelEditor {
   async #read(): Promise<ModelRecord> {
     const { value, tag } = await this.visit.desk.api.tagged<ModelRecord>(this.#path, this.visit.signal);
     this.#tag = tag;
+    this.#model = value;
     return value;
   }
 
@@ -80,13 +94,46 @@ class ModelEditor {
     await this.#showLevels();
   }
 
+  /** Loads the editor of the presentation when it is first opened. */
+  async #openSetting(): Promise<void> {
+    if (this.#editor || !this.#setting.open || !this.#model) return;
+    const { desk, signal } = this.visit, { PresentationEditor } = await import("./presentation.ts");
+    const poster = () => desk.api.blob(`${this.#path}/poster.png?width=240`, signal);
+    const editor = (this.#editor = new PresentationEditor({ h, field, form, texts, gallery, language }, { stage: this.#stage, signal, poster, save: (changes) => this.#present(changes) }));
+    this.#setting.append(editor.element);
+    editor.show(this.#model);
+  }
+
+  /** Saves the presentation, and shows it in a new viewer as visitors see it. The form of the metadata keeps its unsaved texts. */
+  async #present(changes: Placed): Promise<ModelRecord> {
+    await this.visit.desk.api.send("PATCH", this.#path, changes, this.#tag);
+    const model = await this.#read();
+    this.#sight(model);
+    (this.#form.querySelector("[name=unit]") as HTMLSelectElement).value = model.unit;
+    void this.#showLevels();
+    this.visit.desk.say(words.saved);
+    return model;
+  }
+
+  #sight(model: ModelRecord): void {
+    this.#stage.querySelector(".sight")?.remove();
+    this.#stage.prepend(sight(this.visit, model));
+  }
+
   #show(model: ModelRecord): void {
+    this.#editor?.show(model);
     this.#title.textContent = model.title || gallery.untitled;
     this.#state.replaceChildren(modelBadge(model));
-    if (this.#shown !== model.state) this.#stage.replaceChildren(sight(this.visit, model));
+    if (this.#shown !== model.state) this.#sight(model);
     this.#shown = model.state;
     this.#side.replaceChildren(...this.#actions(model));
+    this.#showRepairs(model);
     this.#form.replaceChildren(h("h2", {}, words.metadata), this.#details(model));
+  }
+
+  #showRepairs({ repairs = [] }: ModelRecord): void {
+    this.#repairs.hidden = repairs.length === 0;
+    this.#repairs.replaceChildren(h("h2", {}, texts.jobs.repairs), repairList(repairs));
   }
 
   #actions(model: ModelRecord): Node[] {
@@ -114,7 +161,9 @@ class ModelEditor {
   #details(model: ModelRecord): HTMLElement {
     const text = (name: (typeof kTexts)[number]) => field({
       name, value: model[name], label: name === "title" ? gallery.title : name === "description" ? words.description : gallery.facts[name],
-      ...(name === "description" || name === "rights" ? { type: "textarea" as const } : {}), ...(name === "licence" ? { hint: texts.models.licenceHint } : {}),
+      ...(kParagraphs.includes(name) ? { type: "textarea" as const } : {}), ...(kHints[name] ? { hint: kHints[name] } : {}),
+      ...(name === "licence" ? { suggestions: kLicences } : {}),
+      ...(name === "rights_statement" ? { options: [["", words.noStatement], ...kRightsStatements] as [string, string][] } : {}),
     });
     const units: [string, string][] = [["", words.unknownUnit], ...Object.entries(gallery.units)];
     const save = async (values: Values) => {

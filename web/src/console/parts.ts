@@ -42,6 +42,11 @@ export function heading(text: string, ...beside: (Node | null)[]): HTMLElement {
   return h("header", { class: "heading" }, h("h1", { tabindex: -1 }, text), ...beside);
 }
 
+/** Lists what a build changed or left out. */
+export function repairList(repairs: readonly string[]): HTMLElement {
+  return h("ul", { class: "repairs" }, ...repairs.map((line) => h("li", {}, line)));
+}
+
 export function facts(...pairs: [string, string | Node | null][]): HTMLElement {
   return h("dl", {}, ...pairs.flatMap(([name, value]) => (value === null || value === "" ? [] : [h("dt", {}, name), h("dd", {}, value)])));
 }

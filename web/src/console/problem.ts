@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Errors in the form in which the daemon reports them (RFC 9457). An error may list faults. Each
 // fault names a parameter and describes what is wrong with it.
-export interface Fault {
+export interface ParameterFault {
   parameter: string;
   detail: string;
 }
 
 export class Problem extends Error {
-  constructor(readonly status: number, readonly title: string, readonly detail = "", readonly faults: Fault[] = [], readonly request = "") {
+  constructor(readonly status: number, readonly title: string, readonly detail = "", readonly faults: ParameterFault[] = [], readonly request = "") {
     super(detail || title);
   }
 
@@ -16,7 +16,7 @@ export class Problem extends Error {
    * proxy, the problem has only the status and its text.
    */
   static async of(answer: Response): Promise<Problem> {
-    const body = (await answer.json().catch(() => ({}))) as { title?: string; detail?: string; errors?: Fault[]; request_id?: string };
+    const body = (await answer.json().catch(() => ({}))) as { title?: string; detail?: string; errors?: ParameterFault[]; request_id?: string };
     return new Problem(answer.status, body.title ?? answer.statusText, body.detail, body.errors, body.request_id);
   }
 }

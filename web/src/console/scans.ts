@@ -42,7 +42,7 @@ export const newScanPage: ConsolePage = async ({ desk, view, signal, words: [wan
   const offer = (known: Calibration[]) => calibration.querySelector("select")?.replaceChildren(
     h("option", { value: "" }, texts.calibration.newest), ...known.map(({ number, rms }) => h("option", { value: number }, words.calibration(number, rms))));
   const learn = async () => {
-    // offers no calibrations: if the scanner cannot be reached, "newest" is the only choice
+    // offers only "newest" until the calibrations arrive, or if they cannot be fetched
     offer([]);
     const { calibrations } = await desk.api.get<Calibrations>(`/scanners/${encodeURIComponent(select.value)}/calibrations`, signal);
     offer(calibrations);

@@ -17,11 +17,11 @@ export class EmergencyStop {
   readonly button = h("button", { type: "button", class: "stop", hidden: true }, texts.stop.button);
   readonly said = h("div", { role: "alert", class: "stopped", hidden: true });
   /**
-   * The phase of the newest stop: "sent" until all scanners have responded, then "over" until something is on
+   * The phase of the newest stop: "sent" until all scanners have responded, then "over" until a laser or motor is on
    * again.
    */
   #phase: "none" | "sent" | "over" = "none";
-  /** Why scanners did not confirm the stop; empty if all did. */
+  /** Why scanners did not confirm the stop; empty if all scanners did. */
   #fault = "";
   #shown = "";
 
@@ -72,7 +72,10 @@ export class EmergencyStop {
     this.#say("", "");
   }
 
-  /** Shows the text, or hides the banner if it is empty. An unchanged text is not announced again. */
+  /**
+   * Shows the text, or hides the banner if the text is empty. An unchanged text is not announced
+   * again.
+   */
   #say(text: string, kind: string): void {
     if (text === this.#shown) return;
     this.#shown = text;

@@ -72,6 +72,7 @@ export interface Calibrations {
 
 export interface Manifest {
   unit: string;
+  presentation: { scale: number };
   lattice: { step: number; bits: number };
   bounding_box: { min: number[]; max: number[] };
   levels: { vertices: number; faces: number; cumulative_bytes: number; max_error: number; rms_error: number }[];
@@ -90,7 +91,7 @@ export interface Token {
 export interface Visits {
   from: string; // a date, such as 2026-11-28
   to: string;
-  counted: boolean; // whether the daemon counts visits now
+  counted: boolean; // whether the daemon currently counts visits
   models: { model: string; title: string; visits: number; seconds: number; mean_level: number; complete: number }[];
 }
 

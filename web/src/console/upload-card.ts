@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cards for uploads. Each card has a form for the model that is made from the file. The operator
-// fills it in during the upload.
+// fills in the form during the upload.
 import { h } from "../ui/dom.ts";
 import { size } from "../ui/texts/index.ts";
 import type { Desk } from "./desk.ts";
@@ -48,7 +48,7 @@ class UploadCard {
 
   constructor(private readonly desk: Desk, private readonly sending: Sending, private readonly making: Making) {
     this.#bar = new Bar(words.progress(sending.file.name));
-    this.#job = new JobCard(desk);
+    this.#job = new JobCard(desk, true);
     this.#form = form(making.fields, making.submit, (values) => this.#make(values));
     this.element.append(this.#heading, this.#bar.element, this.#line, this.#actions, this.#alert.element, this.#form);
     sending.onChange = () => this.#show();

@@ -55,7 +55,7 @@ export class Sending {
   /** Stops the upload and deletes the part of the file that the server has received. */
   async cancel(): Promise<void> {
     this.#be("paused");
-    // Ignores an error. The part on the server then expires later.
+    // Ignores an error, because the server later also deletes incomplete uploads by itself.
     await this.#upload.abort(true).catch(() => undefined);
     this.ended();
   }
@@ -122,7 +122,7 @@ export class Uploads {
 
   /**
    * Returns the interrupted uploads. To resume one, the operator must choose the file again,
-   * because browsers do not keep it.
+   * because browsers do not keep the file.
    */
   async interrupted(): Promise<Interrupted[]> {
     const known = await defaultOptions.urlStorage.findAllUploads();

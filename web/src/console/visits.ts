@@ -29,7 +29,7 @@ function row(name: Node | string, { visits, seconds, mean_level: level, complete
   return [name, count(visits), spent(seconds), visits > 0 ? spent(Math.round(seconds / visits)) : "", level.toFixed(1), percentage(complete, visits)];
 }
 
-/** Returns the rows of the table: first the totals, then one row for each model. */
+/** Returns the rows of the table: first the sums over all models, then one row for each model. */
 function rows({ models }: Visits): (Node | string)[][] {
   const sum = (of: (model: Visits["models"][number]) => number) => models.reduce((all, model) => all + of(model), 0);
   const visits = sum((model) => model.visits);

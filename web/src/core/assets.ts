@@ -10,8 +10,8 @@ export interface Assets {
 
 /**
  * Returns the URLs of the files in this module's folder, replaced by those of `moved`. Bundlers look for `new
- * URL("literal", import.meta.url)`, copy the file and put its new URL there. Computes the URLs at each call,
- * because import.meta.url may be missing when the module is loaded on a server.
+ * URL("literal", import.meta.url)`, copy the file and replace the expression by its new URL. Computes the URLs at each
+ * call, because import.meta.url may be missing when the module is loaded on a server.
  */
 export function assetsWith(moved: Partial<Assets>): Assets {
   return {

@@ -2,7 +2,7 @@
 // Finds the changed ranges of a surface. The page copies, uploads and morphs only these ranges.
 // Each range is split into blocks of at most 64 KiB, so that no single task blocks the page.
 import { kAttributes } from "./attributes.ts";
-import type { Change, NumericArray, Place, Surface, SurfaceArray } from "./types.ts";
+import type { Change, ElementRange, NumericArray, Surface, SurfaceArray } from "./types.ts";
 
 /** Size in bytes of the buffer for one block. */
 export const kBlockBytes = 1 << 16;
@@ -21,7 +21,7 @@ interface Pair {
 }
 
 /** A block whose buffer has not been filled yet. */
-export interface Piece extends Place {
+export interface Piece extends ElementRange {
   write(buffer: ArrayBuffer): void;
 }
 
@@ -58,7 +58,10 @@ export class Shown {
   }
 }
 
-/** Yields pieces that copy the given runs (first index and count) of `values`. */
+/**
+ * Yields pieces that copy ranges of `values`. `runs` holds the first index and the count of each
+ * range.
+ */
 function* copied(part: SurfaceArray, values: NumericArray, width: number, runs: Uint32Array): Generator<Piece> {
   for (const { first, count } of places(runs, width * values.BYTES_PER_ELEMENT)) {
     const write = (buffer: ArrayBuffer) =>
@@ -68,8 +71,9 @@ function* copied(part: SurfaceArray, values: NumericArray, width: number, runs: 
 }
 
 /**
- * The source of a `from…` array: the values now and before the change, with `width` numbers per
- * vertex. The `from…` array itself has `room` numbers per vertex.
+ * The source of a `from…` array, which holds the values from which vertices morph. `now` and
+ * `before` are the values after and before the change, with `width` numbers per vertex. The `from…`
+ * array itself has `room` numbers per vertex.
  */
 interface Origin {
   part: SurfaceArray;
@@ -80,9 +84,9 @@ interface Origin {
 }
 
 /**
- * Yields pieces with the values from which each vertex of the runs starts to morph. For each of
- * these vertices, `moved` has the index in `before` of the start values, or -1 if the vertex does
- * not move. If `number` is given, it is the fourth number of each vertex.
+ * Yields pieces with the values from which the vertices of `runs` start to morph. `moved` has one
+ * entry per vertex: the index of these values in `before`, or -1 if the vertex does not move. If
+ * `number` is given, it becomes the fourth number of each vertex.
  */
 function* left({ part, now, before, width, room }: Origin, moved: Int32Array, runs: Uint32Array, number?: number): Generator<Piece> {
   let behind = 0;
@@ -103,7 +107,7 @@ function* left({ part, now, before, width, room }: Origin, moved: Int32Array, ru
 }
 
 /** Splits the runs into ranges that fit into one block each. */
-function* places(runs: Uint32Array, elementBytes: number): Generator<Omit<Place, "part">> {
+function* places(runs: Uint32Array, elementBytes: number): Generator<Omit<ElementRange, "part">> {
   const most = Math.floor(kBlockBytes / elementBytes);
   for (let i = 0; i < runs.length; i += 2) {
     const begin = runs[i] as number, end = begin + (runs[i + 1] as number);
@@ -128,9 +132,9 @@ function pairs(now: Surface, before: Surface | undefined): Pair[] {
 }
 
 /**
- * Compares the first `count` elements of the arrays with those before the change, of which there
- * were `known`. Returns the runs of changed or added elements in ascending order, as pairs of first
- * index and count.
+ * Compares the first `count` elements of the arrays with the `known` elements that the arrays had
+ * before the change. Returns the runs of changed or added elements in ascending order, as pairs of
+ * first index and count.
  */
 function changed(count: number, known: number, arrays: Pair[]): Uint32Array {
   const runs: number[] = [];

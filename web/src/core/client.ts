@@ -3,6 +3,7 @@
 // terminated when the last model is closed.
 import type { Assets } from "./assets.ts";
 import { Budget, type ModelSize } from "./budget.ts";
+import { firstRequest, relay } from "./first-request.ts";
 import type { FromWorker, ToWorker } from "./messages.ts";
 import { PolicyWatch } from "./policy.ts";
 import type { Transport } from "./source.ts";
@@ -38,8 +39,8 @@ interface Turn {
 const budget = new Budget();
 
 /**
- * Sets how many triangles and bytes all models of the page together may use when refined for a
- * camera (ProgressiveMesh.refineFor), and how many texels their pictures may have together.
+ * Sets limits for all models of the page together. `triangles` and `bytes` limit models that are
+ * refined for a camera (ProgressiveMesh.refineFor). `texels` limits the models' pictures.
  */
 export function setBudget(most: ModelSize): void {
   budget.most = { texels: Infinity, ...most };
@@ -51,8 +52,8 @@ let policy: PolicyWatch | undefined;
 let lastId = 0;
 
 /**
- * A model whose session runs in the worker. It opens immediately. Its messages are queued until a
- * listener is set.
+ * A model whose session runs in the worker. The constructor opens the model. Messages are queued
+ * until a listener is set.
  */
 export class RemoteModel {
   readonly #id = ++lastId;
@@ -66,6 +67,7 @@ export class RemoteModel {
   #lost: ModelError | undefined;
   #listener: ModelListener | undefined;
   #unheard: ((listener: ModelListener) => void)[] = [];
+  readonly #relay = new AbortController(); // stops forwarding the response to the first request
 
   constructor(
     url: string,
@@ -75,7 +77,7 @@ export class RemoteModel {
   ) {
     this.#url = new URL(url, document.baseURI).href;
     models.set(this.#id, this);
-    this.#open(false);
+    this.#open(false, this.#askFirst());
   }
 
   set listener(listener: ModelListener) {
@@ -102,7 +104,10 @@ export class RemoteModel {
     });
   }
 
-  /** Requests a picture of the model's texture, in a size of `side` by `side` pixels. It arrives at the listener. */
+  /**
+   * Requests a picture of the model's texture, in a size of `side` by `side` pixels. The picture arrives at the
+   * listener.
+   */
   showPicture({ index, side }: { index: number; side: number }): void {
     if (models.has(this.#id)) send({ type: "showPicture", id: this.#id, index, side });
   }
@@ -120,6 +125,7 @@ export class RemoteModel {
 
   close(): void {
     if (!models.delete(this.#id)) return;
+    this.#relay.abort();
     budget.release(this);
     for (const turn of this.#turns.values()) turn.resolve(false);
     send({ type: "close", id: this.#id });
@@ -153,6 +159,7 @@ export class RemoteModel {
    * was not shown yet, or the new decoder stops before it has reached the request, the model fails.
    */
   stop(message: string): void {
+    this.#relay.abort();
     if (this.#isReady && ++this.#stops === 1) return this.#restart();
     this.#lost = new ModelError(message);
     models.delete(this.#id);
@@ -163,14 +170,23 @@ export class RemoteModel {
     this.#tell((listener) => listener.failed(lost));
   }
 
-  #open(isRestart: boolean): void {
+  #open(isRestart: boolean, isAsked: boolean): void {
     const { transport, assets, token } = this;
     worker ??= startWorker(assets);
-    send({ type: "open", id: this.#id, url: this.#url, transport, token, assets, isRestart });
+    send({ type: "open", id: this.#id, url: this.#url, transport, token, assets, isRestart, isAsked });
+  }
+
+  /** Sends the first request for the model, unless the worker must send it. Returns whether the page has sent it. */
+  #askFirst(): boolean {
+    const request = firstRequest(this.#url, this.transport, this.token), id = this.#id;
+    if (!request) return false;
+    void relay(request, this.#relay.signal, (part) => (
+      worker?.postMessage({ type: "first", id, part } satisfies ToWorker, part instanceof Uint8Array ? [part.buffer] : [])));
+    return true;
   }
 
   #restart(): void {
-    this.#open(true);
+    this.#open(true, false);
     if (!this.#turns.has(this.#turn) && this.#last) this.refine(this.#last).catch(() => undefined); // the listener receives the error
     else for (const [turn, { want }] of this.#turns) this.#ask(turn, want);
   }
@@ -200,7 +216,8 @@ export class RemoteModel {
   }
 
   #fail(turn: number | undefined, error: ModelError): void {
-    if (turn !== undefined) this.#settle(turn)?.reject(error);
+    if (turn === undefined) this.#relay.abort(); // the model cannot be opened
+    else this.#settle(turn)?.reject(error);
     this.#tell((listener) => listener.failed(error));
   }
 }

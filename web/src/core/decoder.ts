@@ -47,8 +47,8 @@ interface Exports {
 }
 
 /**
- * The roles and modes, in the order of the enumerations in codec/format/manifest.h and
- * codec/mesh/texturing.h.
+ * The picture roles and alpha modes, in the order of the enumerations in codec/format/manifest.h
+ * and codec/mesh/texturing.h.
  */
 const kRoles: readonly PictureRole[] = ["colour", "normal", "surface", "emission"];
 const kAlphaModes: readonly TextureInfo["alphaMode"][] = ["opaque", "mask", "blend"];
@@ -289,8 +289,8 @@ export class Decoder {
   }
 
   /**
-   * Reads the part of the summary that describes the texture. It is empty if the model has no
-   * texture.
+   * Reads the part of the summary that describes the texture. This part is empty if the model has
+   * no texture.
    */
   #readTexture(numbers: Float64Array): TextureInfo | undefined {
     if (numbers.length === 0) return undefined;

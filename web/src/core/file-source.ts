@@ -2,11 +2,10 @@
 // Reads a plain .pmesh file from any static host. If the host supports Range requests, fetches the
 // start of the file, and then each part with a request of its own. A host that ignores Range sends
 // the whole file once. Bytes are used as they arrive, without waiting for the end of a response.
+import { kStart } from "./first-request.ts";
 import { refused, unreachable, type ByteRange, type Source } from "./source.ts";
 import { ModelError } from "./types.ts";
 
-/** Bytes of the first request. They are enough for the header and base mesh of most models. */
-const kStart = 32 * 1024;
 /**
  * Number of bytes that head() waits for. On a slow line, these bytes may arrive long before the
  * rest of the first response.
@@ -16,13 +15,19 @@ const kHead = 1024;
 export class FileSource implements Source {
   readonly #life = new AbortController(); // aborts the first download
   #download: Download | undefined;
-  #end = 0; // number of bytes that the first download has received
+  #end = 0; // number of bytes that the first download covers; Infinity if it is the whole file
 
-  constructor(private readonly url: string) {}
+  /**
+   * `first` is the response to a request for the first kStart bytes, if that request has been sent.
+   */
+  constructor(
+    private readonly url: string,
+    private readonly first?: Promise<Response | undefined>,
+  ) {}
 
   /** Returns the file's first bytes, at most kHead. */
   async head(signal: AbortSignal): Promise<Uint8Array> {
-    const response = await this.#request(0, kStart, this.#life.signal);
+    const response = accepted((await this.first) ?? (await this.#request(0, kStart, this.#life.signal)));
     this.#end = response.status === 206 ? kStart : Infinity;
     this.#download = new Download(response);
     return this.#download.slice(0, kHead, signal);
@@ -59,9 +64,13 @@ export class FileSource implements Source {
     } catch (error) {
       throw unreachable(error, "the model file");
     }
-    if (!response.ok) throw refused(response.status, "the model file");
-    return response;
+    return accepted(response);
   }
+}
+
+function accepted(response: Response): Response {
+  if (!response.ok) throw refused(response.status, "the model file");
+  return response;
 }
 
 async function body(response: Response): Promise<Uint8Array> {

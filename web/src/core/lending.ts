@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pool of the buffers that carry blocks to the page. The page returns them. The pool bounds the
-// memory in transit for changes of any size, and avoids allocating a buffer for each block.
+// Pool of the buffers that carry blocks to the page. The page returns the buffers. The pool bounds
+// the memory in transit for changes of any size, and avoids allocating a buffer for each block.
 import { kBlockBytes } from "./change.ts";
 
 /** Maximum number of buffers in transit. Together they have 4 MiB. */

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The messages between page and worker. `id` identifies a model, `turn` a detail request.
+// The messages between page and worker. `id` identifies a model, `turn` a detail request. `isAsked` says that the page has
+// sent the first request for the model, and passes the response on in "first" messages.
 import type { Assets } from "./assets.ts";
+import type { ResponsePart } from "./first-request.ts";
 import type { Transport } from "./source.ts";
 import type { Block, Change, ModelInfo, Progress, Want } from "./types.ts";
 
 export type ToWorker =
-  | { type: "open"; id: number; url: string; transport: Transport; token: string; assets: Assets; isRestart: boolean }
+  | { type: "open"; id: number; url: string; transport: Transport; token: string; assets: Assets; isRestart: boolean; isAsked: boolean }
+  | { type: "first"; id: number; part: ResponsePart }
   | { type: "refine"; id: number; turn: number; want: Want }
   | { type: "showPicture"; id: number; index: number; side: number }
   | { type: "taken"; id: number; buffers: ArrayBuffer[] }

@@ -4,7 +4,7 @@
 /** Maximum size of a band, in pixels. The page uploads a band in one step, without a noticeable pause. */
 const kBandPixels = 1 << 18;
 
-/** Keeps the values as they are stored: a picture of normals has no colours, and opacity must not darken colours. */
+/** Decoding options that keep the stored values: normals are not colours, and opacity must not darken colours. */
 const kAsStored: ImageBitmapOptions = { colorSpaceConversion: "none", premultiplyAlpha: "none" };
 
 /**

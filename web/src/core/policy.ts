@@ -24,8 +24,8 @@ export class PolicyWatch {
 
   /**
    * Resolves to a description of the violation seen so far and of how to permit the blocked action,
-   * or to undefined. Waits for one task, because browsers report a violation in a task after that
-   * of the failure.
+   * or to undefined. Waits for one task, because browsers report a violation only in a task after
+   * the failure.
    */
   async reason(): Promise<string | undefined> {
     await new Promise((resolve) => setTimeout(resolve));

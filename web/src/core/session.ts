@@ -4,6 +4,7 @@
 // detail request replaces the previous one before the next chunk is applied. Fetched chunks are
 // kept, so applying them again needs no download.
 import { Shown, type Piece } from "./change.ts";
+import { presentationOf } from "./presentation.ts";
 import type { Source } from "./source.ts";
 import {
   DamagedError, ModelError, UnreachableError,
@@ -30,9 +31,12 @@ export interface ModelDecoder {
 
 /** Receives the changes and the reports of a session. */
 export interface Sink {
-  /** Called when the head has arrived. The pictures of the head and the first surface follow. */
+  /** Called when the model's head (header, base mesh, first pictures) has arrived. Calls of picture() and show() follow. */
   opened(info: ModelInfo): void;
-  /** Decodes a picture and displays it in a size of `side` by `side` pixels. Resolves when it is decoded. */
+  /**
+   * Decodes a picture and displays it in a size of `side` by `side` pixels. Resolves when the picture is
+   * decoded.
+   */
   picture(index: number, picture: Picture, side: number, bytes: Uint8Array): Promise<void>;
   /** Displays a change. Resolves when the change is displayed. The session sends the next change only after that. */
   show(change: Change, pieces: Piece[]): Promise<void>;
@@ -45,7 +49,7 @@ export type RetryDelay = (milliseconds: number) => Promise<void>;
 
 /** Maximum number of requests in progress at the same time. */
 const kWindow = 6;
-/** Maximum size of the head, in bytes. */
+/** Maximum size of a model's head (header, base mesh, first pictures), in bytes. */
 const kMaxHead = 256 * 1024 * 1024;
 /**
  * Milliseconds before the first retry of a failed request. The waiting time doubles at each retry,
@@ -84,7 +88,7 @@ export class Session {
   ) {}
 
   /**
-   * Fetches the head. Resolves when the base mesh is displayed, with the pictures of the head.
+   * Fetches the model's head. Resolves when the base mesh is displayed, with the pictures of the head.
    * Requests no enhancement layers. If `isRestart`, a finer surface is already displayed; it stays visible
    * until a detail request is reached.
    */
@@ -92,7 +96,8 @@ export class Session {
     const { signal } = this.life;
     let head = await asked;
     head = await this.#extend(head, this.decoder.headerLength(head));
-    const info = (this.#info = this.decoder.open(head));
+    const info = (this.#info = this.decoder.open(head)), presentation = presentationOf(this.source.presentation);
+    if (presentation) info.presentation = presentation;
     head = await this.#extend(head, this.#level(0).cumulativeBytes);
     const base = part(head, info.baseOffset, info.baseLength);
     this.decoder.checkBase(base);
@@ -135,9 +140,9 @@ export class Session {
   }
 
   /**
-   * Fetches a picture and displays it in a size of `side` by `side` pixels. The default of `side`
-   * is that of the file. Resolves when the picture is decoded. Fetched files are kept, because
-   * another size may be needed later.
+   * Fetches a picture and displays it in a size of `side` by `side` pixels. By default, `side` is
+   * the side of the picture in the file. Resolves when the picture is decoded. Fetched files are
+   * kept, because another size may be needed later.
    */
   async showPicture(index: number, side?: number): Promise<void> {
     const picture = this.#info?.texture?.pictures[index];
@@ -171,7 +176,10 @@ export class Session {
     return joined;
   }
 
-  /** Returns the checked atlas of the base mesh. It is empty if the model has no texture. */
+  /**
+   * Returns the checked atlas (coded texture coordinates) of the base mesh. It is empty if the
+   * model has no texture.
+   */
   #atlas(head: Uint8Array, texture: TextureInfo | undefined): Uint8Array {
     if (!texture) return new Uint8Array();
     const atlas = part(head, texture.atlasOffset, texture.atlasLength);
@@ -241,8 +249,8 @@ export class Session {
 
   /**
    * Returns the result of `attempt`. If its data are damaged, tries a second time. If the server
-   * cannot be reached, retries until it can, and calls `ask` before each retry. Resolves to false
-   * when the result is no longer needed.
+   * cannot be reached, retries until the server responds, and calls `ask` before each retry.
+   * Resolves to false when the result is no longer needed.
    */
   async #persist(attempt: () => Promise<boolean>, ask: () => void, isCurrent: () => boolean): Promise<boolean> {
     for (let damaged = 0, lost = 0; ; ) {
@@ -266,8 +274,9 @@ export class Session {
   }
 
   /**
-   * Shows the decoder's current state. If an earlier state is still being displayed, waits for that
-   * first. Does nothing while the decoder's state is coarser than the surface shown.
+   * Shows the decoder's current state. If an earlier state is still being displayed, first waits
+   * until it is displayed. Does nothing while the decoder's state is coarser than the surface
+   * shown.
    */
   #present(): void {
     if (this.#isBehind) return;

@@ -17,7 +17,9 @@ export interface ByteRange {
 }
 
 export interface Source {
-  /** Resolves to the start of the file: the header, and also the rest of the head if one request can fetch both. */
+  /** The presentation of the model as JSON, after head() has resolved. Empty or undefined if there is none. */
+  presentation?: string;
+  /** Resolves to the start of the file: the header, and also base mesh and first pictures if one request can fetch all. */
   head(signal: AbortSignal): Promise<Uint8Array>;
   /**
    * Resolves to exactly `range.length` bytes. Rejects with ModelError on a failure, and with

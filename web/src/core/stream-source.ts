@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Client of the daemon's WebSocket stream (server/stream/PROTOCOL.md). The server sends the head
-// first. Then it sends all chunks that a detail request needs, without a request per chunk. Chunks
-// that the stream does not send are fetched over HTTP.
+// Client of the daemon's WebSocket stream (server/stream/PROTOCOL.md). The server sends the model's
+// head first. Then it sends all chunks that a detail request needs, without a request per chunk.
+// Chunks that the stream does not send are fetched over HTTP.
 import { ApiSource } from "./api-source.ts";
 import type { ByteRange, Source } from "./source.ts";
 import type { Want } from "./types.ts";
@@ -25,6 +25,7 @@ interface Waiter {
 }
 
 export class StreamSource implements Source {
+  presentation = "";
   readonly #http: ApiSource;
   readonly #arrived = new Map<string, Uint8Array>();
   readonly #taken = new Set<string>();
@@ -47,7 +48,10 @@ export class StreamSource implements Source {
     this.#connect("?head=true");
     const head = await this.#wait(kHead, signal);
     this.#arrived.delete(kHead);
-    return head ?? this.#http.head(signal);
+    if (head) return head;
+    const bytes = await this.#http.head(signal);
+    this.presentation = this.#http.presentation;
+    return bytes;
   }
 
   want(want: Want, have: number[]): void {
@@ -86,7 +90,7 @@ export class StreamSource implements Source {
         if (typeof data === "string") this.#receiveText(data);
         else this.#receive(data as ArrayBuffer);
       } catch {
-        socket.close(1000); // the message is not part of pmesh.v1, so the rest is fetched over HTTP
+        socket.close(1000); // the message is not part of pmesh.v1, so the remaining chunks are fetched over HTTP
       }
     };
     socket.onclose = () => socket === this.#socket && this.#miss();
@@ -98,12 +102,13 @@ export class StreamSource implements Source {
   }
 
   #receiveText(text: string): void {
-    const message = JSON.parse(text) as { type?: unknown; turn?: unknown; sha256?: unknown };
+    const message = JSON.parse(text) as { type?: unknown; turn?: unknown; sha256?: unknown; presentation?: unknown };
     if (message.type === "model") {
       // If the hash differs, the file was replaced, and the old file's chunks do not fit the new
       // file.
       if (this.#sha256 && message.sha256 !== this.#sha256) return this.#socket?.close(1000);
       this.#sha256 = String(message.sha256);
+      this.presentation = String(message.presentation ?? "");
     }
     if (message.type === "done" && message.turn === this.#turn) this.#miss();
   }

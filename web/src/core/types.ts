@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types that the stages of the viewer exchange. They depend on neither three.js nor the DOM.
+// Types of the data that page, worker and decoder exchange. They depend on neither three.js nor the
+// DOM.
 import type { Attribute, Semantic } from "./attributes.ts";
+import type { Presentation } from "./presentation.ts";
 
 /** A view of a model by a perspective camera, with limits on the detail. */
 export interface CameraView {
@@ -65,7 +67,10 @@ export interface TextureInfo {
   alphaCutoff: number;
   isDoubleSided: boolean;
   isUnlit: boolean;
-  /** In ascending order of `side`. The first `inHead` pictures follow the base mesh. */
+  /**
+   * In ascending order of `side`. The first `inHead` pictures are in the file's head, after the
+   * base mesh.
+   */
   pictures: Picture[];
   inHead: number;
 }
@@ -78,7 +83,10 @@ export interface ModelInfo {
   baseLength: number;
   fileBytes: number;
   attributes: Semantic[];
-  /** Lattice bits per coordinate, and the lattice step in model units. */
+  /**
+   * Positions are rounded to a lattice with `bits` bits per coordinate. `step` is its step in model
+   * units.
+   */
   bits: number;
   step: number;
   /** The unit of the model's coordinates, or "" if unknown. */
@@ -86,6 +94,8 @@ export interface ModelInfo {
   /** The origin of surface positions, in model coordinates. */
   centre: [number, number, number];
   texture?: TextureInfo;
+  /** How the daemon presents the model. Absent if as in the file. */
+  presentation?: Presentation;
 }
 
 /**
@@ -99,9 +109,9 @@ export interface Surface {
   bytes: number;
   /** 3 coordinates per vertex, in model units relative to `ModelInfo.centre`. */
   positions: Float32Array;
-  /** 4 numbers per vertex: the unit normal scaled by 32767, and 0. */
+  /** 4 numbers per vertex: the components of the unit normal, scaled by 32767, and 0 as padding. */
   normals: Int16Array;
-  /** The model's attributes, each with the width given in attributes.ts. Colours are linear; 65535 stands for 1. */
+  /** The model's attributes, each with the width given in attributes.ts. Colours are linear; 65535 means 1. */
   attributes: Attribute<Uint16Array>[];
   /** 2 texture coordinates per vertex, from (0, 0) in the upper left corner of the pictures. Absent without a texture. */
   coordinates?: Float32Array;
@@ -113,8 +123,8 @@ export type NumericArray = Float32Array | Int16Array | Uint16Array | Uint32Array
 
 /**
  * Names of the arrays of a surface. The `from…` arrays hold the values from which a vertex morphs.
- * `fromPositions` and `fromNormals` have 4 numbers per vertex. In `fromPositions`, the fourth is the
- * number of the change that moves the vertex.
+ * `fromPositions` and `fromNormals` have 4 numbers per vertex. In `fromPositions`, the fourth number
+ * states which change moves the vertex.
  */
 export type SurfaceArray =
   | "positions" | "normals" | Semantic | "coordinates" | "indices" | "fromPositions" | "fromNormals" | "fromCoordinates";
@@ -127,14 +137,14 @@ export interface Change extends Pick<Surface, "triangles" | "vertices" | "bytes"
 }
 
 /** A range of vertices or faces in one array of a surface. */
-export interface Place {
+export interface ElementRange {
   part: SurfaceArray;
   first: number;
   count: number;
 }
 
 /** The data of a range, at the start of `buffer`. The receiver must give the buffer back. */
-export interface Block extends Place {
+export interface Block extends ElementRange {
   buffer: ArrayBuffer;
 }
 

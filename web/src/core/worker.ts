@@ -4,6 +4,7 @@
 import type { Assets } from "./assets.ts";
 import type { Piece } from "./change.ts";
 import { Decoder } from "./decoder.ts";
+import { RelayedResponse } from "./first-request.ts";
 import { decodePicture } from "./picture-bands.ts";
 import { Lending } from "./lending.ts";
 import type { FromWorker, ToWorker } from "./messages.ts";
@@ -23,6 +24,8 @@ interface WorkerModel {
   session: Promise<Session>;
   /** Resolves when the base mesh is displayed. */
   opened: Promise<void>;
+  /** The response to the first request, if the page has sent that request. */
+  first: RelayedResponse | undefined;
   /** Buffers for the change that is being sent to the page. */
   lending: Lending;
   shown: () => void;
@@ -34,6 +37,7 @@ let wasm: Promise<WebAssembly.Module> | undefined;
 
 self.onmessage = ({ data }) => {
   if (data.type === "open") open(data);
+  else if (data.type === "first") models.get(data.id)?.first?.receive(data.part);
   else if (data.type === "refine") void refine(data);
   else if (data.type === "showPicture") void showPicture(data);
   else if (data.type === "taken") models.get(data.id)?.lending.giveBack(data.buffers);
@@ -41,18 +45,21 @@ self.onmessage = ({ data }) => {
   else close(data.id);
 };
 
-function open({ id, isRestart, assets, ...address }: Extract<ToWorker, { type: "open" }>): void {
-  const session = create(id, address, assets);
+function open({ id, isRestart, isAsked, assets, ...address }: Extract<ToWorker, { type: "open" }>): void {
+  const first = isAsked ? new RelayedResponse() : undefined;
+  const session = create(id, address, assets, first?.response);
   const opened = session.then(({ session: created, head }) => created.open(isRestart, head));
-  models.set(id, { session: session.then((created) => created.session), opened, lending: new Lending(), shown: () => undefined });
+  models.set(id, { session: session.then((created) => created.session), opened, first, lending: new Lending(), shown: () => undefined });
   opened
     .then(() => self.postMessage({ type: "ready", id }))
     .catch((error) => void fail(id, undefined, error));
 }
 
-/** Opens a model. Downloads the model's head and the decoder in parallel. */
-async function create(id: number, { url, transport, token }: Address, assets: Assets): Promise<{ session: Session; head: Promise<Uint8Array> }> {
-  const source = openSource(url, transport, token), life = new AbortController();
+/** Opens a model. Downloads the model's head and the decoder in parallel. `first` is the response to a request of the page. */
+async function create(
+  id: number, { url, transport, token }: Address, assets: Assets, first?: Promise<Response | undefined>,
+): Promise<{ session: Session; head: Promise<Uint8Array> }> {
+  const source = openSource(url, transport, token, first), life = new AbortController();
   const head = source.head(life.signal);
   wasm ??= compile(assets.wasm);
   // Errors are reported where the promises are awaited. After an error, the next model that is
@@ -111,7 +118,10 @@ async function refine({ id, turn, want }: Extract<ToWorker, { type: "refine" }>)
   }
 }
 
-/** Shows a picture. If it cannot be fetched, the page gets no bands, and keeps the picture that it shows. */
+/**
+ * Shows a picture. If the picture cannot be fetched, sends an empty list of bands. The page then keeps the
+ * picture that it shows.
+ */
 async function showPicture({ id, index, side }: Extract<ToWorker, { type: "showPicture" }>): Promise<void> {
   try {
     const model = models.get(id);

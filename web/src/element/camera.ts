@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses the attributes camera-orbit, camera-target and field-of-view, whose syntax is that of
+// Parses the attributes camera-orbit, camera-target and field-of-view, in the syntax of
 // model-viewer.
 
 /**

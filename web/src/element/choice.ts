@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The visitor's controls of detail. Buttons request the lowest level, the next finer level or the
-// highest level; they state its size and the estimated waiting time. A slider requests any detail
-// in between. A badge describes the surface shown.
+// highest level. Each button states the size of its level and the estimated waiting time. A slider
+// requests any detail in between. A badge describes the surface shown.
 import type { ModelInfo, Want } from "../core/types.ts";
 import { inMillimetres } from "../texts/formats.ts";
 import type { ViewerTexts } from "../texts/index.ts";
@@ -75,8 +75,8 @@ export class Choice {
   }
 
   /**
-   * Shows the current state. `isBounded` is true if the model is refined uniformly. The error bound
-   * of its level is valid only then.
+   * Shows the current state. `isBounded` is true if the model is refined uniformly. Only then is
+   * the error bound of its level valid.
    */
   show({ triangles, bytes }: { triangles: number; bytes: number }, isBounded: boolean): void {
     this.#again = () => this.show({ triangles, bytes }, isBounded);
@@ -86,7 +86,7 @@ export class Choice {
     const counted = texts.triangles(triangles, this.#info.levels[this.#finest]?.faces ?? triangles);
     this.#write(".triangles", counted);
     this.#write(".bytes", texts.bytes(bytes + this.#pictureBytes, this.#bytesOf(this.#finest) + this.#pictureBytes));
-    const error = completeLevel(this.#info, triangles).maxError;
+    const error = completeLevel(this.#info, triangles).maxError * (this.#info.presentation?.scale ?? 1);
     this.#write(".error", isBounded ? texts.error(...inMillimetres(error, this.#info.unit)) : "");
     this.root.querySelector("[name=detail]")?.setAttribute("aria-valuetext", counted);
     this.#tell();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The element's attributes and events, for TypeScript programs, JSX and Vue templates.
 
-/** The attributes of <progressive-mesh>. Booleans are true or absent. README.md has their meaning. */
+/** The attributes of <progressive-mesh>. Booleans are true or absent. README.md explains them. */
 export interface ProgressiveMeshAttributes {
   src?: string | undefined;
   alt?: string | undefined;
@@ -12,6 +12,7 @@ export interface ProgressiveMeshAttributes {
   "camera-orbit"?: string | undefined;
   "camera-target"?: string | undefined;
   "field-of-view"?: string | undefined;
+  ar?: boolean | undefined;
   "auto-rotate"?: boolean | undefined;
   "touch-action"?: "pan-x" | "pan-y" | "none" | undefined;
   "pixel-error"?: number | string | undefined;
@@ -34,7 +35,7 @@ export interface ProgressiveMeshElementEventMap {
   /** Bytes of the current and of the requested state. */
   progress: CustomEvent<{ bytes: number; total: number }>;
   refine: CustomEvent<{ triangles: number; vertices: number; bytes: number }>;
-  /** `side` in pixels; texels and bytes of all pictures. */
+  /** Side of the picture in pixels, and texels and bytes of all pictures. */
   picture: CustomEvent<{ side: number; texels: number; bytes: number }>;
   load: CustomEvent<null>;
   error: CustomEvent<{ message: string }>;

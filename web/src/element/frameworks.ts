@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types of <progressive-mesh> in JSX of React 19 and in templates of Vue 3. A program may use one
 // of the two frameworks or neither. The lines that need a framework's own types are therefore
-// ignored if the framework is not installed. Comments in this form remain in the published types.
+// ignored if the framework is not installed. Only comments of the form /** remain in the published
+// types.
 import type { ProgressiveMeshAttributes, ProgressiveMeshElementEventMap as EventMap } from "./element-types.ts";
 import type { ProgressiveMeshElement } from "./progressive-mesh-element.ts";
 

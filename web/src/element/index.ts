@@ -13,5 +13,5 @@ declare global {
   }
 }
 
-// On a server that renders the page, there is no registry of elements.
+// A server that renders the page has no registry of custom elements.
 if (globalThis.customElements && !customElements.get("progressive-mesh")) customElements.define("progressive-mesh", ProgressiveMeshElement);

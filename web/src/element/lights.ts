@@ -40,7 +40,7 @@ export class Lights {
     this.lighting = undefined;
   }
 
-  /** Undefined stands for the lighting of a new scene. */
+  /** The lighting of the scene. Undefined selects the lighting of a new scene. */
   set lighting(lighting: Lighting | undefined) {
     this.#lighting = lighting ?? kMuseum;
     this.#lamp.position.set(...this.#lighting.from);

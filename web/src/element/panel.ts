@@ -42,8 +42,8 @@ export class Panel {
   }
 
   /**
-   * Adds a style sheet to the shadow tree, unless the tree has it. Unlike a <style> element, it works under a security policy that
-   * forbids inline styles.
+   * Adds a style sheet to the shadow tree, unless the tree has it. Unlike a <style> element, the sheet works under a content
+   * security policy that forbids inline styles.
    */
   style(css: string): void {
     if (this.#styles.has(css)) return;

@@ -9,6 +9,7 @@ import type { ProgressiveMeshElementEventMap } from "./element-types.ts";
 import { Panel } from "./panel.ts";
 import type { CameraWords, Stage } from "./stage.ts";
 import type { ToneWords } from "./tones.ts";
+import type { Presenter } from "./tools/presenter.ts";
 import type { Toolbox } from "./tools/toolbox.ts";
 
 /** Milliseconds between two detail requests while the camera moves. */
@@ -31,6 +32,7 @@ const kAmounts = ["max-triangles", "max-bytes", "target-error", "pixel-error"];
  * - `pixel-error` (default 1): fetches what the camera sees, to an error of this many device pixels, and continues as the camera
  *   moves; 0 fetches the whole model. One of `max-triangles`, `max-bytes` and `target-error` (model units) requests a fixed state instead;
  * - `max-texture`: the largest side, in pixels, of a picture that is fetched;
+ * - `ar`: offers augmented reality on phones;
  * - `transport` (auto, http or ws).
  * Events: `first-paint` (the base mesh is on the screen, no enhancement layer has been requested
  * yet), `progress` {bytes, total}, `refine` {triangles, vertices, bytes} for each state shown,
@@ -50,6 +52,7 @@ export class ProgressiveMeshElement extends Base {
   #stage: Stage | undefined;
   // Whether the base mesh is on the screen. Refinement and the visitor's tools start only then.
   #isPainted = false;
+  #context: WebGL2RenderingContext | null = null;
   #loads = 0;
   #looking: ReturnType<typeof setTimeout> | undefined;
   // Whether the visitor has chosen a detail. Camera movements do not change a chosen detail.
@@ -92,9 +95,9 @@ export class ProgressiveMeshElement extends Base {
   }
 
   /**
-   * Sets the URLs of those of the viewer's files that are neither in its module's folder nor where a bundler
-   * has put them, and loads the model again. All models of a page share one worker and its decoders, so the
-   * URLs set for the first model apply to all.
+   * Sets the URLs of viewer files that are neither in the module's folder nor where a bundler has put them.
+   * Then loads the model again. All models of a page share one worker and its decoders, so the URLs set for
+   * the first model apply to all.
    */
   setAssets(assets: Partial<Assets>): void {
     this.#assets = assets;
@@ -106,7 +109,7 @@ export class ProgressiveMeshElement extends Base {
     return this.#isPainted ? this.#stage?.orbit : undefined;
   }
 
-  /** The point that the camera looks at, in model coordinates. */
+  /** The point that the camera looks at, in presented coordinates. */
   getCameraTarget(): [number, number, number] | undefined {
     return this.#isPainted ? this.#stage?.target : undefined;
   }
@@ -116,9 +119,14 @@ export class ProgressiveMeshElement extends Base {
     return this.#isPainted ? this.#stage?.fieldOfView : undefined;
   }
 
+  /** The functions with which the console edits how the model is presented. Undefined until the visitor's tools are loaded. */
+  get presenter(): Presenter | undefined {
+    return this.#isPainted ? this.#tools?.presenter : undefined;
+  }
+
   /**
    * Hides the poster if `reveal` is manual. If the base mesh is not on the screen yet, hides the
-   * poster when it is.
+   * poster as soon as it is.
    */
   dismissPoster(): void {
     if (this.#isPainted) this.#panel.hidePoster();
@@ -127,12 +135,12 @@ export class ProgressiveMeshElement extends Base {
 
   connectedCallback(): void {
     this.#adopt();
-    this.#speak();
-    this.#language.observe(document.documentElement, { attributes: true, attributeFilter: ["lang"], subtree: true });
     this.#panel.onDetail = (fraction) => void this.#choose(this.#wantAt(fraction));
     this.#panel.onChoose = (want) => void this.#choose(want);
     this.#size.observe(this.#panel.view);
     this.#begin();
+    this.#speak();
+    this.#language.observe(document.documentElement, { attributes: true, attributeFilter: ["lang"], subtree: true });
   }
 
   disconnectedCallback(): void {
@@ -170,8 +178,8 @@ export class ProgressiveMeshElement extends Base {
   }
 
   /**
-   * Applies properties that the page set before the element was defined. Without this, these own properties
-   * would hide the accessors of the class.
+   * Applies properties that the page set before the element was defined. Otherwise, these properties of the
+   * instance would hide the accessors of the class.
    */
   #adopt(): void {
     for (const name of ["src", "poster", "alt", "token"] as const) {
@@ -187,17 +195,22 @@ export class ProgressiveMeshElement extends Base {
     const src = this.getAttribute("src");
     if (!src) return;
     const load = this.#loads;
+    // Requests three.js first. It is the largest file, so it should take the connection that is already open.
+    const code = Promise.all([import("three"), import("./stage.ts")]);
+    code.catch(() => undefined); // reported by the `await` below
     // Gives the script that has imported this module the chance to call setAssets before anything
     // is loaded.
     await Promise.resolve();
     if (load !== this.#loads) return;
     try {
       this.#model = new RemoteModel(src, this.#transport, assetsWith(this.#assets), this.#token);
-      // Loads everything in parallel: the model and its decoder, the texts, the stage, and
+      // Everything loads in parallel: the model and its decoder, the texts, the stage, and
       // three.js, which the stage uses.
-      const [{ Stage }] = await Promise.all([import("./stage.ts"), import("three"), this.#spoken]);
+      let [canvas, context] = this.#newContext(); // created while the code is being loaded
+      const [[, { Stage }]] = await Promise.all([code, this.#spoken]);
       if (load !== this.#loads) return;
-      const stage = this.#open(new Stage(this.#panel.newCanvas(), this.#model));
+      if (context?.isContextLost()) [canvas, context] = this.#newContext();
+      const stage = this.#open(new Stage(canvas, context, this.#model));
       await stage.mesh.ready;
       if (load !== this.#loads) return;
       await this.#firstPaint(stage);
@@ -213,6 +226,13 @@ export class ProgressiveMeshElement extends Base {
     } catch (error) {
       if (load === this.#loads) this.#fail(error as Error);
     }
+  }
+
+  /** Makes a canvas and its context. The context keeps the drawing buffer after each frame, which printing and screenshots need. */
+  #newContext(): [HTMLCanvasElement, WebGL2RenderingContext | null] {
+    const canvas = this.#panel.newCanvas();
+    const context = (this.#context = canvas.getContext("webgl2", { preserveDrawingBuffer: true }));
+    return [canvas, context];
   }
 
   /**
@@ -375,8 +395,12 @@ export class ProgressiveMeshElement extends Base {
     this.#looking = undefined;
     this.#hasChosen = false;
     this.#tools?.detach();
-    this.#stage?.dispose();
+    // The stage frees its context, because browsers allow only a few contexts per page. If there is no stage yet, frees the
+    // context here.
+    if (this.#stage) this.#stage.dispose();
+    else this.#context?.getExtension("WEBGL_lose_context")?.loseContext();
     this.#stage = undefined;
+    this.#context = null;
     this.#model?.close();
     this.#model = undefined;
     this.#isPainted = false;

@@ -5,10 +5,11 @@ import { BufferAttribute, BufferGeometry, Mesh, PerspectiveCamera, Scene, Spheri
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
 import type { RemoteModel } from "../core/client.ts";
+import type { PresentedView } from "../core/presentation.ts";
 import { fieldOfViewOf, orbitOf, targetOf, type CameraOrbit, type Vec3 } from "./camera.ts";
 import { Lights } from "./lights.ts";
 import { tonesOf, type ToneWords } from "./tones.ts";
-import { fittingDistance, kFieldOfView, kViewpoint } from "./viewpoint.ts";
+import { directionOf, fittingDistance, kFieldOfView, kViewpoint } from "./viewpoint.ts";
 
 /** The attributes that place the camera. A missing attribute is null. */
 export interface CameraWords {
@@ -33,7 +34,6 @@ export class Stage {
   readonly #controls: OrbitControls;
   readonly #lights = new Lights(this.#scene, this.#camera);
   #toneWords: ToneWords = { mapping: null, exposure: null };
-  #base: Float32Array | undefined; // the positions of the base mesh
   #frame = 0;
   #isPlacing = false;
   #room: Promise<void> | undefined;
@@ -41,10 +41,9 @@ export class Stage {
   #drawn: (() => void)[] = [];
   #isDisposed = false;
 
-  /** Throws if WebGL is not available. */
-  constructor(canvas: HTMLCanvasElement, model: RemoteModel) {
-    // Keeps the drawing buffer after each frame, which printing and screenshots need.
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+  /** Draws to `context`. Throws if it is null, because WebGL is then not available. */
+  constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext | null, model: RemoteModel) {
+    this.#renderer = new WebGLRenderer({ canvas, ...(context && { context }) });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     // Draws after a lost context is restored. three.js then restores its own state, but does not
     // draw.
@@ -54,16 +53,16 @@ export class Stage {
       this.draw();
       this.onCamera(!this.#isPlacing);
     });
-    this.mesh = new ProgressiveMesh(model);
-    this.mesh.drawBy(this.#renderer);
+    this.mesh = new ProgressiveMesh(model, this.#renderer);
     for (const type of ["refine", "morph", "picture"] as const) this.mesh.addEventListener(type, () => this.draw());
     this.#scene.add(this.mesh, this.#camera);
     if (!this.mesh.isOpen) this.#warmUp();
   }
 
   /**
-   * Draws a triangle without area while the model is on its way. Graphics drivers finish compiling a shader when it is first
-   * drawn with, which would delay the first picture. This is the shader of a model without colours and pictures.
+   * Draws a triangle without area while the model is being loaded. Graphics drivers finish compiling a shader when it is
+   * first used for drawing, which would delay the first picture. The triangle has the shader of a model without colours and
+   * pictures.
    */
   #warmUp(): void {
     const triangle = new Mesh(new BufferGeometry(), this.mesh.material);
@@ -110,26 +109,41 @@ export class Stage {
   }
 
   /**
-   * Places the camera as the attributes say. Without attributes, the model fills the view. The first call, when the base mesh is
-   * shown, decides how large the model is.
+   * Places the camera as the attributes say. Without attributes, the model fills the view. The first call must come when the
+   * base mesh is shown, because it determines how large the model is.
    */
   frame(words: CameraWords = { orbit: null, target: null, fieldOfView: null }): void {
-    const { centre, unit } = this.mesh.info;
-    const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
+    this.#place(words, this.mesh.info.presentation?.view);
+  }
+
+  /** Moves the camera to a view. Null stands for the usual first view. */
+  show(view: PresentedView | null): void {
+    this.#place({ orbit: null, target: null, fieldOfView: null }, view);
+  }
+
+  #place(words: CameraWords, view: PresentedView | null | undefined): void {
+    const { info: { unit }, presentedCentre: centre } = this.mesh;
+    const radius = this.radius;
     this.#camera.fov = fieldOfViewOf(words.fieldOfView, kFieldOfView);
-    const around = new Spherical().setFromVector3(kViewpoint), target = targetOf(words.target, centre, unit);
-    const distance = this.#fittingDistance(new Vector3(...target).sub(new Vector3(...centre)));
+    const around = new Spherical().setFromVector3(view ? directionOf(view) : kViewpoint);
+    const target = targetOf(words.target, view?.target ?? centre.toArray(), unit);
+    const distance = this.fittingDistance(new Vector3(...target).sub(centre), new Vector3().setFromSpherical(around));
     this.#camera.near = radius / 100;
     this.#camera.far = distance + 20 * radius;
     this.#camera.updateProjectionMatrix();
     this.#controls.minDistance = radius * 0.2;
     this.#controls.maxDistance = 6 * distance;
-    this.#stand(orbitOf(words.orbit, { theta: around.theta, phi: around.phi, radius: distance }, unit), target);
+    this.#stand(orbitOf(words.orbit, { theta: around.theta, phi: around.phi, radius: distance / (view?.zoom ?? 1) }, unit), target);
   }
 
-  #fittingDistance(target: Vector3): number {
-    this.#base ??= Float32Array.from(this.mesh.geometry.getAttribute("position").array);
-    return fittingDistance(this.#base, target, kViewpoint, this.#camera.aspect, this.#camera.fov) || 1;
+  /** Returns the distance from `target`, relative to the model's centre, at which the model fills the view. */
+  fittingDistance(target: Vector3, direction: Vector3): number {
+    return fittingDistance(this.mesh.basePositions, target, direction, this.#camera.aspect, this.#camera.fov) || 1;
+  }
+
+  /** The radius of a sphere around the model. */
+  get radius(): number {
+    return (this.mesh.geometry.boundingSphere?.radius ?? 1) * this.mesh.scale.x;
   }
 
   /** The camera's position relative to the point that it looks at. */
@@ -138,9 +152,9 @@ export class Stage {
     return { theta, phi, radius };
   }
 
-  /** The point that the camera looks at, in model coordinates. */
+  /** The point that the camera looks at, in presented coordinates. */
   get target(): Vec3 {
-    return this.#controls.target.clone().add(new Vector3(...this.mesh.info.centre)).toArray();
+    return this.#controls.target.clone().add(this.mesh.presentedCentre).toArray();
   }
 
   /** The vertical field of view, in degrees. */
@@ -167,7 +181,7 @@ export class Stage {
   }
 
   #stand({ theta, phi, radius }: CameraOrbit, target: Vec3): void {
-    this.#controls.target.fromArray(target).sub(new Vector3(...this.mesh.info.centre));
+    this.#controls.target.fromArray(target).sub(this.mesh.presentedCentre);
     this.#camera.position.setFromSphericalCoords(radius, phi, theta).add(this.#controls.target);
     this.#isPlacing = true;
     this.#controls.update();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the attributes tone-mapping and exposure, whose values are those of model-viewer.
 import {
-  ACESFilmicToneMapping, AgXToneMapping, CineonToneMapping, LinearToneMapping, NeutralToneMapping, NoToneMapping, ReinhardToneMapping,
-  type ToneMapping,
+  ACESFilmicToneMapping, AgXToneMapping, CineonToneMapping, LinearToneMapping, NoToneMapping, REVISION, ReinhardToneMapping, type ToneMapping,
 } from "three";
 
 export interface ToneWords {
@@ -16,8 +15,15 @@ export interface Tones {
   exposure: number;
 }
 
+/**
+ * NeutralToneMapping, which three.js has since revision 162. Older revisions get linear mapping, which differs in bright colours
+ * only. The code has the number instead of the name, because bundlers refuse to import a name that the page's three.js does not
+ * have.
+ */
+const kNeutralToneMapping: ToneMapping = parseInt(REVISION) < 162 ? LinearToneMapping : 7;
+
 const kMappings: Record<string, ToneMapping> = {
-  neutral: NeutralToneMapping, aces: ACESFilmicToneMapping, agx: AgXToneMapping, reinhard: ReinhardToneMapping, cineon: CineonToneMapping,
+  neutral: kNeutralToneMapping, aces: ACESFilmicToneMapping, agx: AgXToneMapping, reinhard: ReinhardToneMapping, cineon: CineonToneMapping,
   linear: LinearToneMapping, none: NoToneMapping,
 };
 
@@ -27,7 +33,7 @@ const kMappings: Record<string, ToneMapping> = {
  */
 export function tonesOf({ mapping, exposure }: ToneWords, isTextured: boolean): Tones {
   const factor = Number(exposure || NaN), hasFactor = Number.isFinite(factor) && factor >= 0;
-  // Linear mapping with exposure 1 changes nothing, but it needs another shader.
+  // Linear mapping with exposure 1 would change nothing, but would need another shader.
   const unmapped = hasFactor ? LinearToneMapping : NoToneMapping;
-  return { mapping: kMappings[mapping ?? ""] ?? (isTextured ? NeutralToneMapping : unmapped), exposure: hasFactor ? factor : 1 };
+  return { mapping: kMappings[mapping ?? ""] ?? (isTextured ? kNeutralToneMapping : unmapped), exposure: hasFactor ? factor : 1 };
 }

@@ -6,6 +6,11 @@ export const kFieldOfView = 35;
 /** Direction from the object's centre to the camera. */
 export const kViewpoint = new Vector3(0.35, 0.15, 1).normalize();
 
+/** Returns the direction from the object's centre to the camera. Angles are in degrees. */
+export function directionOf({ azimuth, elevation }: { azimuth: number; elevation: number }): Vector3 {
+  return new Vector3().setFromSphericalCoords(1, ((90 - elevation) * Math.PI) / 180, (azimuth * Math.PI) / 180);
+}
+
 /** Part of the view's width or height, whichever is smaller, that a model fills at first. */
 const kFill = 0.83;
 

@@ -33,7 +33,7 @@ function side(name: Side, all: readonly ModelRecord[]): HTMLElement {
   return h("section", { class: name }, select, viewer);
 }
 
-/** Returns the newest objects, and those that the address names. */
+/** Returns the newest objects, and the objects that the page's URL names. */
 async function listed(): Promise<ModelRecord[]> {
   const { models: newest } = await models("", null);
   const named = kSides.flatMap((name) => query.get(name) ?? []).filter((id) => !newest.some((record) => record.id === id));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Couples the cameras of viewers: if the visitor moves one, the others show their objects from the same direction, at the same
-// size relative to their views, and panned alike.
+// Couples the cameras of viewers. If the visitor moves one camera, the other viewers show their objects from the same direction,
+// at the same size relative to their views, and with the same panning.
 import type { Unit } from "../ui/api.ts";
 
 export type Viewer = HTMLElement & {
@@ -8,7 +8,7 @@ export type Viewer = HTMLElement & {
   getCameraTarget(): [number, number, number] | undefined;
 };
 
-/** The view without the visitor's movements. */
+/** The initial view, before the visitor has moved the camera. */
 interface Home {
   /** Distance from the target, in model units. */
   radius: number;

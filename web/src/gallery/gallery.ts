@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gallery, "/", which shows the published models. A button loads further models. The search
-// words are in the URL's query.
-import { models, type ModelRecord } from "../ui/api.ts";
+// The gallery, "/", which shows the published models. A button loads further models. Words, facets
+// and order of the search are in the URL's query. Also the page of a collection, "/collections/{name}", which shows the models of
+// that collection only.
+import { facets, models, type ModelRecord } from "../ui/api.ts";
 import { byId, h, square } from "../ui/dom.ts";
 import { count, language, size, texts } from "../ui/texts/index.ts";
+import { facetGroups, kFacetNames, type Chosen } from "./facets.ts";
 
 /** The search starts when the visitor has not typed for this many milliseconds. */
 const kRest = 250;
@@ -11,6 +13,12 @@ const kPosterSide = 480;
 
 const list = byId<HTMLUListElement>("models"), note = byId("note"), more = byId<HTMLButtonElement>("more"), form = byId<HTMLFormElement>("search");
 const input = h("input", { type: "search", name: "q", maxlength: 100, placeholder: texts.searchHint, "aria-label": texts.search, autocomplete: "off" });
+const sort = h("select", { name: "sort", "aria-label": texts.sort }, ...Object.entries(texts.orders).map(([value, label]) => h("option", { value }, label)));
+const narrowing = byId("facets"), groups = byId("groups");
+let chosen: Chosen = {};
+/** The collection whose page this is; empty on the page of all models. */
+const [, , ownCollection = ""] = location.pathname.startsWith("/collections/") ? location.pathname.split("/").map(decodeURIComponent) : [];
+const own: Chosen = ownCollection ? { collection: ownCollection } : {};
 
 function card(model: ModelRecord): HTMLLIElement {
   const facts = [model.creator, texts.amount(count(model.faces), size(model.bytes)), model.licence].filter(Boolean);
@@ -27,7 +35,19 @@ class Display {
   /** Starts a new search at its first page. Responses to earlier requests are ignored from now on. */
   search(words: string): Promise<void> {
     this.#cursor = null;
+    void this.#count(words);
     return this.#ask(words, true);
+  }
+
+  /** Shows the facets of the search. If there is no response, the facets shown before stay. */
+  async #count(words: string): Promise<void> {
+    const wanted = chosen, found = await facets(words, { ...wanted, ...own }).catch(() => null);
+    if (!found || wanted !== chosen || words !== input.value.trim()) return;
+    const focused = document.activeElement?.closest("#groups button")?.firstElementChild?.textContent;
+    groups.replaceChildren(...facetGroups(found, chosen, (now) => ((chosen = now), find()), kFacetNames.filter((name) => !(name in own))));
+    narrowing.hidden = groups.childElementCount === 0;
+    [...groups.querySelectorAll("button")].find((button) => button.firstElementChild?.textContent === focused)?.focus();
+    if (isNarrowed(words) && found.models > 0) say(texts.found(count(found.models)));
   }
 
   more(): Promise<void> {
@@ -38,7 +58,7 @@ class Display {
     const question = ++this.#asked;
     more.disabled = true;
     try {
-      const page = await models(words, this.#cursor);
+      const page = await models(words, this.#cursor, { ...chosen, ...own, sort: sort.value });
       if (question !== this.#asked) return;
       this.#cursor = page.next;
       const cards = page.models.map(card);
@@ -55,9 +75,14 @@ class Display {
     const { childElementCount: shown } = list;
     more.disabled = false;
     more.hidden = this.#cursor === null;
-    if (shown > 0) say(words ? texts.found(count(shown)) : "");
-    else say(words ? texts.nothingFound(words) : `${texts.empty} ${texts.emptyHint}`);
+    if (shown > 0) say(isNarrowed(words) ? note.textContent ?? "" : "");
+    else say(isNarrowed(words) ? texts.nothingFound([words, ...Object.values(chosen)].filter(Boolean).join(", ")) : `${texts.empty} ${texts.emptyHint}`);
   }
+}
+
+/** Whether the search leaves out objects. */
+function isNarrowed(words: string): boolean {
+  return words !== "" || Object.keys(chosen).length > 0;
 }
 
 function say(text: string): void {
@@ -70,20 +95,29 @@ let rest: ReturnType<typeof setTimeout>;
 function find(): void {
   clearTimeout(rest);
   const words = input.value.trim();
-  history.replaceState(null, "", words ? `?q=${encodeURIComponent(words)}` : location.pathname);
+  const query = new URLSearchParams({ ...(words && { q: words }), ...chosen, ...(sort.value !== "newest" && { sort: sort.value }) });
+  history.replaceState(null, "", query.size > 0 ? `?${query}` : location.pathname);
   void display.search(words);
 }
 
 document.documentElement.lang = language;
-document.title = byId("title").textContent = texts.collection;
+document.title = byId("title").textContent = ownCollection || texts.collection;
+if (ownCollection) byId("title").before(h("a", { id: "back", href: "/" }, texts.collection));
 more.textContent = texts.more;
 more.addEventListener("click", () => void display.more());
-form.append(input);
+form.append(input, sort);
+sort.addEventListener("change", find);
+byId("narrow").textContent = texts.narrow;
 form.addEventListener("submit", (event) => (event.preventDefault(), find()));
 input.addEventListener("input", () => {
   clearTimeout(rest);
   rest = setTimeout(find, kRest);
 });
 byId("footer").append(h("a", { href: "/console" }, texts.console), h("a", { href: "/docs" }, texts.interface));
-input.value = new URLSearchParams(location.search).get("q") ?? "";
+const query = new URLSearchParams(location.search);
+input.value = query.get("q") ?? "";
+sort.value = query.get("sort") ?? "newest";
+if (sort.value === "") sort.value = "newest";
+narrowing.toggleAttribute("open", kFacetNames.some((name) => query.has(name)));
+chosen = Object.fromEntries(kFacetNames.flatMap((name) => (query.get(name) ? [[name, query.get(name)]] : []))) as Chosen;
 void display.search(input.value.trim());

@@ -72,7 +72,7 @@ class LiveScan implements ScanSight {
     (find("#progress").firstElementChild as HTMLElement).style.transform = `scaleX(${progress})`;
   }
 
-  /** Updates the text only if it has changed. Otherwise screen readers would announce it again. */
+  /** Updates the text only if it has changed, because screen readers announce every update. */
   #say(text: string): void {
     if (find("#state").textContent !== text) find("#state").textContent = text;
     if (text === texts.scan.lost || text === "") find("#left").textContent = "";

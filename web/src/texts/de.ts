@@ -80,12 +80,22 @@ export const de = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   copy: "Kopieren",
   copied: "Der Link ist kopiert.",
   copyByHand: "Der Link ist markiert: kopieren Sie ihn mit der Tastatur.",
+  qr: "QR-Code",
+  qrOf: "QR-Code des Links",
+  qrMissing: "Der QR-Code kann nicht gezeichnet werden.",
   download: "Modell herunterladen",
   format: "Format",
   asShown: (triangles) => `Wie gezeigt, ${count(triangles)} Dreiecke`,
   original: (triangles) => `Voll, ${count(triangles)} Dreiecke`,
   coarsest: (triangles) => `Wenig, ${count(triangles)} Dreiecke`,
   fileAlone: "Das ganze Modell (.pmesh)",
+
+  ar: "In Ihrem Raum",
+  arHint: "Zeigt das Objekt in wahrer Größe im Bild Ihrer Kamera:",
+  arStart: "Im Raum ansehen",
+  arPlace: "Richten Sie die Kamera auf den Boden oder einen Tisch. Ein Tippen stellt das Objekt ab, ein weiteres nimmt es wieder auf.",
+  arNoUnit: "Die Einheit dieses Objekts ist unbekannt. Daher kann es in Ihrem Raum nicht in wahrer Größe gezeigt werden.",
+  arFailed: "Auf diesem Gerät lässt sich die erweiterte Realität nicht starten.",
 
   fullScreen: "Vollbild",
 

@@ -79,12 +79,22 @@ export const en = ({ count, size, length, extent, bound }: Formats) => ({
   copy: "Copy",
   copied: "Link copied.",
   copyByHand: "The link is selected: copy it with the keyboard.",
+  qr: "QR code",
+  qrOf: "QR code of the link",
+  qrMissing: "The QR code cannot be drawn.",
   download: "Download the model",
   format: "Format",
   asShown: (triangles: number) => `As shown, ${count(triangles)} triangles`,
   original: (triangles: number) => `Full, ${count(triangles)} triangles`,
   coarsest: (triangles: number) => `Low, ${count(triangles)} triangles`,
   fileAlone: "The whole model (.pmesh)",
+
+  ar: "In your room",
+  arHint: "Shows the object at its real size in the picture of your camera:",
+  arStart: "View in your room",
+  arPlace: "Point the camera at the floor or a table. A tap sets the object down, another tap picks it up.",
+  arNoUnit: "The unit of this object is unknown, so it cannot be shown at its real size in your room.",
+  arFailed: "Augmented reality cannot be started on this device.",
 
   fullScreen: "Full screen",
 

@@ -80,12 +80,22 @@ export const es = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   copy: "Copiar",
   copied: "Enlace copiado.",
   copyByHand: "El enlace está seleccionado: cópielo con el teclado.",
+  qr: "Código QR",
+  qrOf: "Código QR del enlace",
+  qrMissing: "No se puede dibujar el código QR.",
   download: "Descargar el modelo",
   format: "Formato",
   asShown: (triangles) => `Como se muestra, ${count(triangles)} triángulos`,
   original: (triangles) => `Completo, ${count(triangles)} triángulos`,
   coarsest: (triangles) => `Bajo, ${count(triangles)} triángulos`,
   fileAlone: "El modelo entero (.pmesh)",
+
+  ar: "En su espacio",
+  arHint: "Muestra el objeto a su tamaño real en la imagen de su cámara:",
+  arStart: "Ver en su espacio",
+  arPlace: "Apunte la cámara al suelo o a una mesa. Un toque deja el objeto y otro toque lo recoge.",
+  arNoUnit: "Se desconoce la unidad de este objeto, por lo que no se puede mostrar a su tamaño real en su espacio.",
+  arFailed: "No se puede iniciar la realidad aumentada en este dispositivo.",
 
   fullScreen: "Pantalla completa",
 

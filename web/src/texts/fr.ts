@@ -80,12 +80,22 @@ export const fr = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   copy: "Copier",
   copied: "Le lien est copié.",
   copyByHand: "Le lien est sélectionné : copiez-le au clavier.",
+  qr: "Code QR",
+  qrOf: "Code QR du lien",
+  qrMissing: "Le code QR ne peut pas être dessiné.",
   download: "Télécharger le modèle",
   format: "Format",
   asShown: (triangles) => `Comme affiché, ${count(triangles)} triangles`,
   original: (triangles) => `Complet, ${count(triangles)} triangles`,
   coarsest: (triangles) => `Faible, ${count(triangles)} triangles`,
   fileAlone: "Le modèle entier (.pmesh)",
+
+  ar: "Chez vous",
+  arHint: "Montre l’objet à sa taille réelle dans l’image de votre caméra :",
+  arStart: "Voir chez vous",
+  arPlace: "Dirigez la caméra vers le sol ou une table. Touchez l’écran pour poser l’objet, puis encore une fois pour le reprendre.",
+  arNoUnit: "L’unité de cet objet est inconnue : il ne peut pas être montré chez vous à sa taille réelle.",
+  arFailed: "La réalité augmentée ne peut pas être lancée sur cet appareil.",
 
   fullScreen: "Plein écran",
 

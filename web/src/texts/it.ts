@@ -80,12 +80,22 @@ export const it = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   copy: "Copia",
   copied: "Link copiato.",
   copyByHand: "Il link è selezionato: copialo con la tastiera.",
+  qr: "Codice QR",
+  qrOf: "Codice QR del link",
+  qrMissing: "Non è possibile disegnare il codice QR.",
   download: "Scarica il modello",
   format: "Formato",
   asShown: (triangles) => `Come mostrato, ${count(triangles)} triangoli`,
   original: (triangles) => `Pieno, ${count(triangles)} triangoli`,
   coarsest: (triangles) => `Basso, ${count(triangles)} triangoli`,
   fileAlone: "Il modello intero (.pmesh)",
+
+  ar: "Nella tua stanza",
+  arHint: "Mostra l’oggetto a grandezza naturale nell’immagine della fotocamera:",
+  arStart: "Guarda nella tua stanza",
+  arPlace: "Punta la fotocamera verso il pavimento o un tavolo. Un tocco posa l’oggetto, un altro lo riprende.",
+  arNoUnit: "L’unità di misura di questo oggetto è sconosciuta, quindi non può essere mostrato a grandezza naturale nella tua stanza.",
+  arFailed: "Non è possibile avviare la realtà aumentata su questo dispositivo.",
 
   fullScreen: "Schermo intero",
 

@@ -53,7 +53,7 @@ export class Appearance {
     this.material.metalness = this.material.metalnessMap ? Math.min(reflection, 1) : 0;
   }
 
-  /** Disposes of all textures, whose graphics memory may be lost. */
+  /** Disposes of all textures, because their graphics memory may be lost. */
   forget(): void {
     for (const texture of this.#textures.values()) texture.dispose();
     this.#textures.clear();

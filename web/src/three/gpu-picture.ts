@@ -28,7 +28,7 @@ export class GpuPicture {
       const filter = gl.getExtension("EXT_texture_filter_anisotropic");
       if (filter) gl.texParameterf(gl.TEXTURE_2D, filter.TEXTURE_MAX_ANISOTROPY_EXT, Math.min(kAnisotropy, renderer.capabilities.getMaxAnisotropy()));
     });
-    // Makes three.js bind this texture, which it must not upload itself.
+    // Makes three.js bind this texture instead of uploading one.
     Object.assign(renderer.properties.get(this.texture) as object, { __webglTexture: this.#handle, __webglInit: true });
     this.texture.addEventListener("dispose", () => gl.deleteTexture(this.#handle));
     // Rows run downwards, as in glTF.
@@ -36,7 +36,7 @@ export class GpuPicture {
     Object.defineProperty(this.texture.source, "data", { get: () => this.#read(side) });
   }
 
-  /** Reads the picture back into a canvas, which exporters of three.js take for the texture's image. */
+  /** Reads the picture back into a canvas, which exporters of three.js use as the texture's image. */
   #read(side: number): HTMLCanvasElement {
     const gl = this.#gl, before = gl.getParameter(gl.FRAMEBUFFER_BINDING) as WebGLFramebuffer | null;
     const frame = gl.createFramebuffer(), image = new ImageData(side, side);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Avoids speckles at silhouettes. A back face there may cover pixels of an adjacent front face.
+// Avoids speckles at silhouettes, where a back face may cover pixels of an adjacent front face.
 // three.js flips the normals of back faces towards the viewer, which is right for the inside of an
 // open scan but makes silhouettes speckled. This patch keeps the original normals of back faces
 // near a silhouette.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses which picture of a texture to show next. For each role, this is the smallest whose texels
-// are at most about a screen pixel in size. A picture that is finer than that is held in a smaller
-// size.
+// Chooses which picture of a texture to show next. For each role, this is the smallest picture whose
+// texels are at most about as large as a screen pixel. A picture with finer texels is scaled down.
 import type { PictureRole, TextureInfo } from "../core/types.ts";
 
 /** Desired side of a picture in pixels, per pixel of the model's size on the screen. */
@@ -56,8 +55,8 @@ export class Pictures {
   }
 
   /**
-   * Returns the next picture to request, if the model measures `pixels` on the screen. Returns
-   * undefined if there is none, or if the previous request is neither shown nor forgotten.
+   * Returns the next picture to request, if the model is `pixels` pixels large on the screen.
+   * Returns undefined if there is none, or if the previous request is neither shown nor forgotten.
    */
   next(pixels: number, limits: PictureLimits): SizedPicture | undefined {
     if (this.#requested) return undefined;
@@ -73,8 +72,8 @@ export class Pictures {
   }
 
   /**
-   * Returns the role of a picture that has arrived and should replace the one shown. Returns undefined if a picture as fine is
-   * shown. `side` is 0 if the picture cannot be fetched.
+   * Returns the role of a picture that has arrived and should replace the one shown. Returns undefined if a picture of the
+   * same or finer detail is shown. `side` is 0 if the picture cannot be fetched.
    */
   receive({ index, side }: SizedPicture): PictureRole | undefined {
     const role = this.texture.pictures[index]?.role, isAnswer = index === this.#requested?.index;
@@ -91,7 +90,9 @@ export class Pictures {
     if (picture.index === this.#requested?.index) this.forgetRequest();
   }
 
-  /** Returns the picture of `role` that should replace the one shown: a finer one, or a smaller one if the texels are too many. */
+  /**
+   * Returns the picture of `role` that should replace the one shown: a finer one, or a smaller one if there are too many texels.
+   */
   #wanted(role: PictureRole, needed: number, limits: PictureLimits): SizedPicture | undefined {
     const most = Math.sqrt(limits.texels / this.#roles.size), target = Math.min(needed, most);
     const all = this.texture.pictures.map(({ side }, index) => ({ index, side }));
@@ -108,14 +109,16 @@ export class Pictures {
   }
 }
 
-/** Returns the bytes of a picture and of all its copies that are half as large as the one before. */
+/**
+ * Returns the bytes of a picture and its mipmaps. Each mipmap has half the side of the one before.
+ */
 function pyramidBytes(side: number): number {
   return side === 0 ? 0 : 4 * side ** 2 + pyramidBytes(side >> 1);
 }
 
 /**
- * Returns the side at which a picture is held: its own, or that divided by a power of the square root of 2. The result is at
- * least `needed` if the picture is, and never above `most`.
+ * Returns the side at which a picture is held: its own side, possibly divided by a power of the square root of 2. The
+ * result is at most `most`, and at least `needed` if `side` and `most` permit that.
  */
 function heldSide(side: number, needed: number, most: number): number {
   const halvings = Math.max(0, Math.floor(2 * Math.log2(side / needed)), Math.ceil(2 * Math.log2(side / most)));

@@ -13,8 +13,8 @@ export class ProgressiveMeshLoader extends Loader<ProgressiveMesh> {
   #assets: Partial<Assets> = {};
 
   /**
-   * Sets the URLs of the files that are neither in this module's folder nor where a bundler has put them. All models of a page
-   * share one worker and its decoders, so the URLs of the first model count.
+   * Sets the URLs of viewer files that are neither in this module's folder nor where a bundler has put them. All models of a
+   * page share one worker and its decoders, so the URLs set for the first model apply to all.
    */
   setAssets(assets: Partial<Assets>): this {
     this.#assets = assets;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  DoubleSide, Matrix4, Mesh, MeshStandardMaterial,
+  Box3, DoubleSide, Matrix4, Mesh, MeshStandardMaterial, Vector3,
   type BufferGeometry, type Camera, type Material, type Object3DEventMap, type PerspectiveCamera, type WebGLRenderer,
 } from "three";
 import type { RemoteModel } from "../core/client.ts";
+import type { Presentation } from "../core/presentation.ts";
 import type { Block, Change, ModelError, ModelInfo, Progress, Surface, Want } from "../core/types.ts";
 import { Appearance } from "./appearance.ts";
 import { Geomorph } from "./geomorph.ts";
@@ -29,7 +30,7 @@ export interface ProgressiveMeshEventMap extends Object3DEventMap {
   morph: object;
   /**
    * Dispatched when a picture is shown. The page should then draw again. `texels` is the total of
-   * all pictures shown. `bytes` is the size of all pictures fetched, without those of the head.
+   * all pictures shown. `bytes` is the size of all pictures fetched, except those in the file's head.
    */
   picture: { side: number; texels: number; bytes: number };
   /** Dispatched when the graphics memory of the mesh has changed. `geometry` and `pictures` are in bytes. */
@@ -42,7 +43,7 @@ export interface ProgressiveMeshEventMap extends Object3DEventMap {
 
 /**
  * A mesh that is refined in place. Its origin is the centre of the model's bounding box
- * (`info.centre` in model coordinates). Add the mesh to a scene, and call `refine`, or call
+ * (`info.centre` in model coordinates). It is turned and scaled as the daemon presents the model. Add the mesh to a scene, and call `refine`, or call
  * `refineFor` whenever the camera has come to rest. Draw on `refine` and `morph` events, or
  * continuously. `dispose` frees all memory.
  */
@@ -60,8 +61,9 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   #buffers: SurfaceBuffers | undefined;
   #info: ModelInfo | undefined;
   #renderer: WebGLRenderer | undefined;
-  #working = 0;
+  #working = 0; // ID of the requested animation frame; -1 if the jobs continue without one; 0 if nothing is requested
   #moving = 0;
+  #basePositions = new Float32Array(0); // relative to info.centre
   #base: { resolve(): void; reject(error: ModelError): void } | undefined;
 
   /** Largest side of a picture that is fetched for this mesh, in pixels. */
@@ -70,7 +72,8 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   /** Resolves when the base mesh is in the geometry. */
   readonly ready: Promise<void>;
 
-  constructor(model: RemoteModel) {
+  /** Give the `renderer` if it is known, so that the first frame shows the mesh. */
+  constructor(model: RemoteModel, renderer?: WebGLRenderer) {
     // Draws both sides of faces, because scans are often open and show their inside.
     super(new SurfaceGeometry(), new MeshStandardMaterial({ side: DoubleSide }));
     this.#appearance = new Appearance(this.material);
@@ -79,11 +82,12 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
     this.onBeforeRender = (renderer, scene, camera) => {
       this.drawBy(renderer);
-      // three.js before revision 163 has no intensity of a scene's environment.
+      // Scenes of three.js have no `environmentIntensity` before revision 163.
       this.#appearance.light(this.material.envMap ? this.material.envMapIntensity : scene.environment ? (scene.environmentIntensity ?? 1) : 0);
       this.#requestPicture(renderer, camera);
     };
     this.#model = model;
+    if (renderer) this.drawBy(renderer);
     model.listener = {
       opened: (info) => this.#open(info),
       change: (change, shown) => this.#accept(change, shown),
@@ -129,7 +133,7 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
    * request replaces it.
    */
   refine(want: Want): Promise<boolean> {
-    return this.#model.refine(want);
+    return this.#model.refine("error" in want ? { error: want.error / this.scale.x } : want);
   }
 
   /**
@@ -141,8 +145,34 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
     const toModel = new Matrix4().makeTranslation(...this.info.centre).multiply(this.matrixWorld.clone().invert());
-    const placed = toModel.multiply(camera.matrixWorld);
+    // The planner expects a camera without scaling.
+    const placed = toModel.multiply(camera.matrixWorld).scale(new Vector3().setScalar(this.matrixWorld.getMaxScaleOnAxis()));
     return this.refine({ view: { camera: placed.toArray(), fov: camera.getEffectiveFOV(), width, height, pixels } });
+  }
+
+  /** Turns and scales the mesh as the daemon presents the model. Called when the model is opened. */
+  present({ rotation, scale }: Pick<Presentation, "rotation" | "scale">): void {
+    this.quaternion.fromArray(rotation);
+    this.scale.setScalar(scale);
+    this.updateMatrixWorld();
+  }
+
+  /** The mesh's origin (`info.centre`) in presented coordinates, which are those of exported files. */
+  get presentedCentre(): Vector3 {
+    return new Vector3(...this.info.centre).applyQuaternion(this.quaternion).multiply(this.scale);
+  }
+
+  /** The positions (x, y, z, ...) of the base mesh, relative to `presentedCentre`. Empty until the base mesh is loaded. */
+  get basePositions(): Float32Array {
+    const placed = new Float32Array(this.#basePositions.length), point = new Vector3();
+    for (let i = 0; i < placed.length; i += 3)
+      point.fromArray(this.#basePositions, i).applyQuaternion(this.quaternion).multiply(this.scale).toArray(placed, i);
+    return placed;
+  }
+
+  /** The bounding box of the base mesh, relative to `presentedCentre`. Null until the base mesh is loaded. */
+  get presentedBox(): Box3 | null {
+    return this.geometry.boundingBox && new Box3().setFromArray(this.basePositions);
   }
 
   /** Adds geomorphs to another material that draws this geometry. */
@@ -164,8 +194,8 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   /**
-   * Returns a mesh that shares geometry and material with this one, as for other meshes of three.js. It is refined with this
-   * one, until this one is disposed of.
+   * Returns a mesh that shares its geometry and material with this mesh, like the clones of other three.js meshes. The clone
+   * is refined together with this mesh, until this mesh is disposed of.
    */
   override clone(recursive?: boolean): this {
     const copy = new Mesh(this.geometry, this.material).copy(this as Mesh<BufferGeometry, MeshStandardMaterial>, recursive);
@@ -208,6 +238,7 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.#pictures?.forgetRequest();
     if (this.#info) return; // already set, if the decoder was restarted
     this.#info = info;
+    if (info.presentation) this.present(info.presentation);
     const finest = info.levels[info.levels.length - 1];
     if (finest) this.#buffers = new SurfaceBuffers(this.geometry, finest, info.attributes, info.texture !== undefined);
     if (info.texture) this.#pictures = new Pictures(info.texture);
@@ -216,8 +247,8 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   /**
-   * Requests the picture that fits the model's size on the screen of `camera`, if it is finer than
-   * the one shown.
+   * Requests the picture that fits the size of the model as `camera` shows it, if this picture is
+   * finer than the one shown.
    */
   #requestPicture(renderer: WebGLRenderer, camera: Camera): void {
     const levels = this.#info?.levels ?? [], box = this.geometry.boundingBox;
@@ -232,7 +263,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     if (next) this.#model.showPicture(next);
   }
 
-  /** Uploads the pictures that waited for a context before any surface, so that no surface is shown without its pictures. */
+  /**
+   * Uploads the pictures that waited for a context. Uploads them before any surface, so that no surface is shown without its
+   * pictures.
+   */
   #acceptEarly(): void {
     const others = this.#jobs.splice(0);
     for (const { index, bands } of this.#early.splice(0)) this.#acceptPicture(index, bands);
@@ -245,8 +279,9 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   /**
-   * Uploads and shows a picture that has arrived, unless a picture as fine is shown. If the WebGL context is lost, keeps the
-   * picture until it is restored. If it is lost during the upload, the picture is requested again.
+   * Uploads and shows a picture that has arrived, unless a picture of the same or finer detail is shown. If the WebGL
+   * context is lost, keeps the picture until the context is restored. If the context is lost during the upload, the picture
+   * is requested again.
    */
   *#showPicture(renderer: WebGLRenderer, index: number, bands: ImageBitmap[]): Steps {
     if (renderer.getContext().isContextLost()) return void this.#early.push({ index, bands });
@@ -304,8 +339,14 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.#goOn();
   }
 
+  /**
+   * Continues in the next frame. The base mesh is small, so its upload does not wait for the next frame. It waits only until the
+   * current function ends, because this function may still add listeners.
+   */
   #goOn(): void {
-    this.#working ||= requestAnimationFrame(() => this.#continue());
+    if (this.#working !== 0) return;
+    this.#working = this.#base ? -1 : requestAnimationFrame(() => this.#continue());
+    if (this.#base) queueMicrotask(() => this.#continue());
   }
 
   /** Runs upload jobs until the frame's budget is spent, a change is ready to be drawn, or data are missing. */
@@ -313,10 +354,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     performance.mark("progressive-mesh:begin");
     const end = performance.now() + kFrameBudget;
     let pause: IteratorResult<"continue" | "next frame" | "wait", void> | undefined;
-    for (let job = this.#jobs[0]; job && performance.now() < end; job = this.#jobs[0]) {
+    for (let job = this.#jobs[0]; job && (this.#base || performance.now() < end); job = this.#jobs[0]) {
       pause = job.next();
       if (pause.done) this.#jobs.shift();
-      else if (pause.value !== "continue") break;
+      else if (pause.value === "wait" || (pause.value === "next frame" && !this.#base)) break;
     }
     this.#giveBack();
     performance.mark("progressive-mesh:end");
@@ -357,5 +398,6 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     if (!this.#base) return;
     this.geometry.computeBoundingBox();
     this.geometry.computeBoundingSphere();
+    this.#basePositions = Float32Array.from(this.geometry.getAttribute("position").array);
   }
 }

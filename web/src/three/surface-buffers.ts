@@ -18,7 +18,7 @@ const kAttributes: Readonly<Record<Semantic, { name: string; width: 3 | 4 }>> = 
  * add vertices. The unused part takes no memory, because the operating system provides each page of
  * memory only when it is first written. Without `values`, the array exists only on the GPU.
  */
-interface Kind {
+interface BufferedArray {
   /** Name of the attribute in three.js. */
   name: string;
   width: 2 | 3 | 4;
@@ -34,7 +34,7 @@ export interface Inbox {
 }
 
 export class SurfaceBuffers {
-  readonly #kinds = new Map<SurfaceArray, Kind>();
+  readonly #arrays = new Map<SurfaceArray, BufferedArray>();
   readonly #gpu = new Map<SurfaceArray, GpuArray>();
   #gl: WebGL2RenderingContext | undefined;
   #vertices = 0;
@@ -49,20 +49,20 @@ export class SurfaceBuffers {
     isTextured: boolean,
   ) {
     const { FLOAT, SHORT, UNSIGNED_SHORT, UNSIGNED_INT } = WebGL2RenderingContext;
-    const { vertices, faces } = finest, kinds = this.#kinds;
-    kinds.set("positions", { name: "position", width: 3, ArrayType: Float32Array, values: new Float32Array(3 * vertices), type: FLOAT });
-    kinds.set("normals", { name: "normal", width: 4, ArrayType: Int16Array, values: new Int16Array(4 * vertices), type: SHORT });
+    const { vertices, faces } = finest, arrays = this.#arrays;
+    arrays.set("positions", { name: "position", width: 3, ArrayType: Float32Array, values: new Float32Array(3 * vertices), type: FLOAT });
+    arrays.set("normals", { name: "normal", width: 4, ArrayType: Int16Array, values: new Int16Array(4 * vertices), type: SHORT });
     for (const semantic of attributes) {
       const { name, width } = kAttributes[semantic];
-      kinds.set(semantic, { name, width, ArrayType: Uint16Array, values: new Uint16Array(width * vertices), type: UNSIGNED_SHORT });
+      arrays.set(semantic, { name, width, ArrayType: Uint16Array, values: new Uint16Array(width * vertices), type: UNSIGNED_SHORT });
     }
     if (isTextured) {
-      kinds.set("coordinates", { name: "uv", width: 2, ArrayType: Float32Array, values: new Float32Array(2 * vertices), type: FLOAT });
-      kinds.set("fromCoordinates", { name: "fromCoordinate", width: 2, ArrayType: Float32Array, type: FLOAT });
+      arrays.set("coordinates", { name: "uv", width: 2, ArrayType: Float32Array, values: new Float32Array(2 * vertices), type: FLOAT });
+      arrays.set("fromCoordinates", { name: "fromCoordinate", width: 2, ArrayType: Float32Array, type: FLOAT });
     }
-    kinds.set("indices", { name: "index", width: 3, ArrayType: Uint32Array, values: new Uint32Array(3 * faces), type: UNSIGNED_INT });
-    kinds.set("fromPositions", { name: "fromPosition", width: 4, ArrayType: Float32Array, type: FLOAT });
-    kinds.set("fromNormals", { name: "fromNormal", width: 4, ArrayType: Int16Array, type: SHORT });
+    arrays.set("indices", { name: "index", width: 3, ArrayType: Uint32Array, values: new Uint32Array(3 * faces), type: UNSIGNED_INT });
+    arrays.set("fromPositions", { name: "fromPosition", width: 4, ArrayType: Float32Array, type: FLOAT });
+    arrays.set("fromNormals", { name: "fromNormal", width: 4, ArrayType: Int16Array, type: SHORT });
     this.#describe();
   }
 
@@ -74,7 +74,7 @@ export class SurfaceBuffers {
   /** Uses the context `gl` from now on. Uploads the current surface in slices, and draws it after the last slice. */
   *attach(gl: WebGL2RenderingContext): Steps {
     this.#gl = gl;
-    for (const [part, kind] of this.#kinds) {
+    for (const [part, kind] of this.#arrays) {
       if (!kind.values) continue;
       const values = kind.values.subarray(0, kind.width * this.#count(part));
       const array = this.#begin(part, this.#count(part));
@@ -102,7 +102,7 @@ export class SurfaceBuffers {
   *take(change: Change, inbox: Inbox, morph: boolean): Steps {
     this.#isTaking = true;
     yield* this.#reserve(change.vertices);
-    for (const part of this.#gl ? this.#kinds.keys() : []) {
+    for (const part of this.#gl ? this.#arrays.keys() : []) {
       if (morph || !isOrigin(part)) this.#begin(part, part === "indices" ? change.triangles : change.vertices);
     }
     for (let left = change.blocks; left > 0; --left) {
@@ -122,7 +122,7 @@ export class SurfaceBuffers {
 
   /** Makes room for `vertices` vertices in the arrays, slice by slice. */
   *#reserve(vertices: number): Steps {
-    for (const [part, kind] of this.#kinds) {
+    for (const [part, kind] of this.#arrays) {
       const { values, width, ArrayType } = kind;
       if (!values || part === "indices" || values.length >= width * vertices) continue;
       const length = width * Math.ceil(1.5 * vertices), slice = kSlice / ArrayType.BYTES_PER_ELEMENT;
@@ -159,7 +159,7 @@ export class SurfaceBuffers {
   }
 
   #begin(part: SurfaceArray, count: number): GpuArray {
-    const { width, ArrayType } = this.#kinds.get(part) as Kind;
+    const { width, ArrayType } = this.#arrays.get(part) as BufferedArray;
     const array = this.#gpu.get(part) ?? new GpuArray(this.#gl as WebGL2RenderingContext, part === "indices" ? "ELEMENT_ARRAY_BUFFER" : "ARRAY_BUFFER");
     this.#gpu.set(part, array);
     array.begin(count * width * ArrayType.BYTES_PER_ELEMENT);
@@ -167,7 +167,7 @@ export class SurfaceBuffers {
   }
 
   #put({ part, first, count, buffer }: Block): void {
-    const kind = this.#kinds.get(part);
+    const kind = this.#arrays.get(part);
     if (!kind) return;
     const news = new kind.ArrayType(buffer, 0, kind.width * count);
     kind.values?.set(news, kind.width * first);
@@ -185,7 +185,7 @@ export class SurfaceBuffers {
    */
   #describe(): void {
     ++this.#version;
-    for (const [part, kind] of this.#kinds) {
+    for (const [part, kind] of this.#arrays) {
       if (kind.values) this.#mirror(part, kind, kind.values);
       else this.#lendOut(part, kind);
     }
@@ -194,7 +194,7 @@ export class SurfaceBuffers {
     this.geometry.setDrawRange(0, this.#gpu.size > 0 ? 3 * this.#triangles : -1);
   }
 
-  #mirror(part: SurfaceArray, { name, width, type }: Kind, values: NumericArray): void {
+  #mirror(part: SurfaceArray, { name, width, type }: BufferedArray, values: NumericArray): void {
     const present = values.subarray(0, width * this.#count(part));
     const attribute = new UploadedAttribute(present, part === "indices" ? 1 : width, this.#gpu.get(part)?.buffer, type);
     attribute.version = this.#version; // the new version makes three.js rebuild its wireframe index
@@ -203,10 +203,10 @@ export class SurfaceBuffers {
   }
 
   /**
-   * Sets the geometry's attribute for an array that exists only on the GPU, so that the attribute has no values. Deletes the
-   * attribute if there is no such array.
+   * Sets the geometry's attribute for an array that exists only on the GPU. The attribute's own array of values stays empty.
+   * Deletes the attribute if the GPU has no such array.
    */
-  #lendOut(part: SurfaceArray, { name, width, type, ArrayType }: Kind): void {
+  #lendOut(part: SurfaceArray, { name, width, type, ArrayType }: BufferedArray): void {
     const buffer = this.#gpu.get(part)?.buffer;
     if (!buffer) return void this.geometry.deleteAttribute(name);
     this.geometry.setAttribute(name, new UploadedAttribute(new ArrayType(new ArrayBuffer(0), 0, 0), width, buffer, type));

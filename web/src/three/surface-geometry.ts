@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of a ProgressiveMesh and its attributes, so that the methods and exporters of three.js work with them.
+// Makes the methods and exporters of three.js work with the geometry of a ProgressiveMesh, although its attributes
+// are in GPU buffers.
 import { Box3, BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
 import type { NumericArray } from "../core/types.ts";
 
@@ -46,7 +47,10 @@ export class SurfaceGeometry extends BufferGeometry {
     else this.boundingSphere.set(box.getCenter(new Vector3()), 0.55 * box.getSize(new Vector3()).length());
   }
 
-  /** Returns a geometry with the present state of the surface, which does not change any more. */
+  /**
+   * Returns a geometry with the present state of the surface. Later refinements do not change the
+   * copy.
+   */
   override clone(): this {
     const copy = new BufferGeometry().copy(this);
     for (const [name, { count }] of Object.entries(copy.attributes)) if (count === 0) copy.deleteAttribute(name);

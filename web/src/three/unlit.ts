@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a material with the define UNLIT show its colours without light, like MeshBasicMaterial.
-// Without the define, the same material is lit, to show the form alone.
+// Patches shaders: a material with the preprocessor definition UNLIT shows its colours without
+// light, like MeshBasicMaterial. Without the definition, the same material is lit, to show the form
+// alone.
 
 /** Returns the patched source of a three.js fragment shader. */
 export function unlit(shader: string): string {

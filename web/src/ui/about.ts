@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The description of an object, and its downloads.
-import type { ModelRecord } from "./api.ts";
-import { copyable } from "./copy.ts";
+import type { ModelRecord, MoreTexts } from "./api.ts";
+import { copyable, quotable } from "./copy.ts";
 import { h } from "./dom.ts";
+import { licenceMark, rightsLabel } from "./rights.ts";
 import { count, date, measure, size, texts } from "./texts/index.ts";
 
 export function about(model: ModelRecord): Node[] {
@@ -10,6 +11,7 @@ export function about(model: ModelRecord): Node[] {
     h("h2", {}, texts.about),
     h("div", { class: "description" }, ...(model.description ?? "").split(/\n+/).filter(Boolean).map((text) => h("p", {}, text))),
     h("dl", {}, ...facts(model).flatMap(([name, value]) => [h("dt", {}, texts.facts[name]), h("dd", {}, value)])),
+    ...citations(model),
     h("div", { class: "offers" },
       h("h3", {}, texts.download),
       downloads(model),
@@ -24,33 +26,54 @@ export function about(model: ModelRecord): Node[] {
   ];
 }
 
-/** Returns the line that only the printed page has. It states the day of printing. */
-function printed(model: ModelRecord): HTMLElement {
+/** The names of the styles, which are the same in all languages. */
+const kStyles = { apa: "APA", chicago: "Chicago", mla: "MLA" };
+
+/** Returns how to cite the object, in each style. */
+function citations({ citation }: ModelRecord): HTMLElement[] {
+  if (!citation) return [];
+  const styles = Object.entries(kStyles) as [keyof typeof kStyles, string][];
+  return [h("section", { class: "citations" },
+    h("h3", {}, texts.cite),
+    ...styles.flatMap(([style, name]) => [h("h4", {}, name), quotable(name, citation[style])]))];
+}
+
+/** Returns the line that only the printed page has. It states the address and the day of printing. */
+function printed({ links }: ModelRecord): HTMLElement {
   const line = h("p", { class: "printed" });
-  const write = () => (line.textContent = citation(model, location.origin, date(new Date().toISOString())));
+  const write = () => (line.textContent = `${location.origin}${links.page}, ${texts.viewed(date(new Date().toISOString()))}.`);
   addEventListener("beforeprint", write);
   write();
   return line;
 }
 
-/** Returns how to cite the object's page, as it was seen on `today`. */
-export function citation({ creator, title, publisher, date: made, licence, links }: ModelRecord, origin: string, today: string): string {
-  const work = [creator, title || texts.untitled].filter(Boolean).join(": "), source = [publisher, made].filter(Boolean).join(", ");
-  return [work, source, licence, `${origin}${links.page}`].filter(Boolean).join(". ") + `, ${texts.viewed(today)}.`;
-}
-
 type Fact = [name: keyof typeof texts.facts, value: Node | string];
 
+const kFacts = ["creator", "date", "period", "place", "coverage", "subject", "material", "technique", "identifier", "provenance",
+  "publisher", "contributor", "source", "relation", "language", "type", "scan_device", "scan_calibration", "scan_date", "scan_software",
+  "collection", "persistent_identifier"] as const;
+
 function facts(model: ModelRecord): Fact[] {
-  const { creator, date, subject, coverage, publisher, contributor, identifier, source, relation, language, type, rights } = model;
-  const metadata = { creator, date, subject, coverage, publisher, contributor, identifier, source, relation, language, type, rights };
+  const named = (names: readonly (keyof MoreTexts | "creator" | "rights")[]) =>
+    names.flatMap((name): Fact[] => (model[name] ? [[name as Fact[0], name === "collection" ? collections(model[name]) : linked(model[name])]] : []));
+  const { dimensions, doi, rights_statement: statement } = model;
   return [
-    ...(Object.entries(metadata) as [Fact[0], string | undefined][]).flatMap(([name, value]): Fact[] => (value ? [[name, linked(value)]] : [])),
-    ...(model.licence ? [["licence", licence(model.licence)] as Fact] : []),
+    ...named(kFacts),
+    ...(doi ? [["doi", h("a", { href: `https://doi.org/${encodeURI(doi).replaceAll("#", "%23").replaceAll("?", "%3F")}`, rel: "noopener" }, doi)] as Fact] : []),
+    ...(dimensions ? [["dimensions", texts.dimensions(measure(dimensions.width), measure(dimensions.height), measure(dimensions.depth), dimensions.unit)] as Fact] : []),
+    ...named(["rights"]),
+    ...(statement ? [["rights_statement", h("a", { href: statement, rel: "license noopener" }, rightsLabel(statement))] as Fact] : []),
+    ...(model.licence ? [["licence", marked(model.licence)] as Fact] : []),
     ...(model.unit ? [["unit", texts.units[model.unit]] as Fact] : []),
     ...(model.accuracy === null ? [] : [["accuracy", `± ${measure(model.accuracy)} ${model.unit}`] as Fact]),
     ["detail", texts.amount(count(model.faces), size(model.bytes))],
   ];
+}
+
+/** Returns links to the pages of collections, whose names are separated by semicolons. */
+function collections(names: string): Node {
+  const links = names.split(";").map((name) => name.trim()).filter(Boolean).map((name) => h("a", { href: `/collections/${encodeURIComponent(name)}` }, name));
+  return h("span", {}, ...links.flatMap((link, at) => (at > 0 ? ["; ", link] : [link])));
 }
 
 /** Returns a link if the text is a URL. Otherwise returns the text. */
@@ -67,6 +90,12 @@ function licence(text: string): Node | string {
   if (kind && version) return h("a", { href: `https://creativecommons.org/licenses/${kind.toLowerCase()}/${version}/`, rel: "license noopener" }, text);
   if (text === "CC0-1.0") return h("a", { href: "https://creativecommons.org/publicdomain/zero/1.0/", rel: "license noopener" }, text);
   return linked(text);
+}
+
+/** Returns the licence. A Creative Commons licence gets its icon. */
+function marked(text: string): Node | string {
+  const mark = licenceMark(text);
+  return mark ? h("span", {}, h("span", { class: "cc", "aria-hidden": "true" }, mark), licence(text)) : licence(text);
 }
 
 type Format = keyof typeof texts.formats;
@@ -103,11 +132,11 @@ const kShape = "width: 100%; aspect-ratio: 4 / 3";
 /** Returns HTML code that embeds the object in a page of another site. */
 export function snippet({ links, title }: ModelRecord, origin: string): string {
   return `<script type="module" src="${origin}/progressive-mesh.js"></script>\n` +
-    `<progressive-mesh src="${origin}${links.self}" alt="${escaped(title || texts.untitled)}" camera-controls ` +
+    `<progressive-mesh src="${origin}${links.self}" alt="${escaped(title || texts.untitled)}" camera-controls ar ` +
     `poster="${origin}${links.self}/poster.png?width=960" style="${kShape}"></progressive-mesh>`;
 }
 
 /** Returns HTML code that shows the object's page in a frame, for sites whose editors remove scripts. */
 export function frame({ links, title }: ModelRecord, origin: string): string {
-  return `<iframe src="${origin}${links.page}" title="${escaped(title || texts.untitled)}" allow="fullscreen; web-share" style="${kShape}; border: 0"></iframe>`;
+  return `<iframe src="${origin}${links.page}" title="${escaped(title || texts.untitled)}" allow="fullscreen; web-share; xr-spatial-tracking" style="${kShape}; border: 0"></iframe>`;
 }

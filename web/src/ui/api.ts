@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Client of the part of the daemon's API that visitors' pages use.
+import type { Presentation } from "../core/presentation.ts";
+
 export type Unit = "mm" | "cm" | "m" | "in";
 
-/** Optional metadata (Dublin Core). */
+/** Optional metadata: Dublin Core terms, and facts about the object and its scan. */
 export type MoreTexts = Partial<Record<
-  "contributor" | "coverage" | "date" | "description" | "identifier" | "language" | "publisher" | "relation" | "source" | "subject" | "type",
+  | "contributor" | "coverage" | "date" | "description" | "identifier" | "language" | "publisher" | "relation" | "source" | "subject" | "type"
+  | "material" | "technique" | "period" | "place" | "collection" | "provenance" | "rights_statement" | "persistent_identifier" | "doi"
+  | "scan_device" | "scan_calibration" | "scan_date" | "scan_software",
   string>>;
+
+/** The size of a mesh in its unit. */
+export interface Dimensions {
+  width: number;
+  height: number;
+  depth: number;
+  unit: Unit;
+}
 
 export interface ModelRecord extends MoreTexts {
   id: string;
@@ -16,11 +28,15 @@ export interface ModelRecord extends MoreTexts {
   licence: string;
   unit: Unit | ""; // "" if unknown
   accuracy: number | null; // in the model's `unit`
+  dimensions?: Dimensions | null; // null if the unit is unknown; missing in lists
+  citation?: { apa: string; chicago: string; mla: string }; // missing in lists
   public_max_level: number | null;
+  presentation: Presentation;
   created: string;
   vertices: number;
   faces: number;
   bytes: number;
+  repairs?: string[]; // what the build changed or left out; only for clients with a token
   links: { self: string; page: string; poster: string; file: string; manifest: string };
 }
 
@@ -52,15 +68,32 @@ const kTimeout = 20_000;
 
 export interface ModelListPage {
   models: ModelRecord[];
-  next: string | null; // the cursor of the next page
+  next: string | null; // cursor of the next page; null on the last page
 }
 
 /** Models per page. A multiple of 2, 3 and 4, so that the last row is full with 2, 3 or 4 models per row. */
 const kPage = 24;
 
-/** Returns a page of the published models that contain all `words`, newest first. */
-export function models(words: string, cursor: string | null): Promise<ModelListPage> {
-  return get<ModelListPage>(`/api/v1/models?${modelQuery(words, cursor)}`);
+/**
+ * Returns a page of the published models that contain all `words`, newest first. `narrowed` holds further query
+ * parameters.
+ */
+export function models(words: string, cursor: string | null, narrowed: Record<string, string> = {}): Promise<ModelListPage> {
+  const query = modelQuery(words, cursor);
+  for (const [name, value] of Object.entries(narrowed)) query.set(name, value);
+  return get<ModelListPage>(`/api/v1/models?${query}`);
+}
+
+export type FacetName = "subject" | "creator" | "period" | "material" | "licence" | "collection";
+
+export interface Facets {
+  models: number; // number of all models that the search finds
+  facets: Record<FacetName, { value: string; models: number }[]>;
+}
+
+/** Returns the facets of a search: the most frequent values over all models that it finds. */
+export function facets(words: string, narrowed: Record<string, string>): Promise<Facets> {
+  return get<Facets>(`/api/v1/facets?${new URLSearchParams({ ...(words && { q: words }), ...narrowed })}`);
 }
 
 export function modelQuery(words: string, cursor: string | null): URLSearchParams {
@@ -76,8 +109,8 @@ export function scan(id: string): Promise<ScanRecord> {
 }
 
 /**
- * Returns x, y and z of a scan's points, starting at point number `from`. One response may not
- * contain all of them. Coordinates are in mm, with z upwards.
+ * Returns x, y and z of a scan's points, starting at point number `from`. One response may contain
+ * only some of the points. Coordinates are in mm, with z upwards.
  */
 export async function scanPoints(id: string, from: number): Promise<Float32Array> {
   const answer = await ask(`/api/v1/scans/${encodeURIComponent(id)}/points?from=${from}`, "application/octet-stream");

@@ -50,7 +50,10 @@ export class CloudStage {
     this.draw();
   }
 
-  /** Removes all points. Called when the scan measures again. If a visitor controls the camera, it stays in place. */
+  /**
+   * Removes all points. Called when the scan measures again. If a visitor controls the camera, the camera stays in
+   * place.
+   */
   restart(): void {
     this.#cloud.empty();
     this.#extent = new Extent();
@@ -111,7 +114,7 @@ export class CloudStage {
 
   /**
    * Moves the camera towards its goal, by the fraction `share` of the distance. The goal is the
-   * position from which the camera sees all points. Returns false if the camera was already there.
+   * position from which the camera sees all points. Returns false if the camera is already at its goal.
    */
   #follow(share: number): boolean {
     const { target } = this.#controls, offset = this.#camera.position.clone().sub(target);

@@ -30,8 +30,8 @@ const kFragment = `
 
 /**
  * A point cloud. Distant points are fainter, and the newest points have the accent colour. The more
- * points there are, the more transparent each is. Therefore, folds and rims, where many points
- * overlap, stay visible.
+ * points there are, the more transparent each point is. Therefore, folds and rims, where many
+ * points overlap, stay visible.
  */
 export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
   #count = 0;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-// Forwards the available bytes, at most `limit`. Returns the number of bytes; 0 at the end of the
-// stream.
+// Forwards the available bytes, but at most `limit`. Returns the number of forwarded bytes, or 0 at
+// the end of the stream.
 std::size_t pass(int from, int to, std::size_t limit) {
   char bytes[4096];
   const ssize_t count = ::recv(from, bytes, std::min(limit, sizeof bytes), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A relay between client and server that cuts off the first connection.
+// A relay between a client and a server. It cuts off the first connection.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,8 @@ namespace vitrine::test {
 
 class CuttingRelay {
  public:
-  // Forwards to `port` of 127.0.0.1. The first connection ends once the server has sent `bytes`.
+  // Forwards connections to port `port` of 127.0.0.1. Cuts off the first connection after the
+  // server has sent `bytes` bytes.
   CuttingRelay(std::uint16_t port, std::size_t bytes);
   ~CuttingRelay();
   CuttingRelay(const CuttingRelay&) = delete;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -58,7 +59,7 @@ class FetchTest : public ::testing::Test {
   std::string url(std::uint16_t port) const {
     return "http://127.0.0.1:" + std::to_string(port) + "/models/" + id;
   }
-  // `variable` is "NAME=value" for the program's environment.
+  // Runs `vitrine fetch`. `variable` is "NAME=value" for its environment.
   ProgramResult fetch(const std::string& from, const std::string& out,
                       std::vector<std::string> more = {},
                       const std::string& variable = "A=") const {
@@ -66,7 +67,7 @@ class FetchTest : public ::testing::Test {
                                "--force", "-o", (results.path() / out).string(), "--json"});
     return run_program(more);
   }
-  // Returns the number of files in the folder of the results, part files included.
+  // Returns the number of files in the results' folder, including partial downloads.
   std::size_t files() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(results.path()), fs::directory_iterator()));
@@ -88,6 +89,22 @@ TEST_F(FetchTest, FetchesTheWholeFile) {
   EXPECT_EQ(files(), 1u) << "what was on its way is gone";
 }
 
+TEST_F(FetchTest, WritesToStandardOutputInTheStatedFormat) {
+  const Daemon daemon(data.path());
+  const auto fetch_to_output = [&](const std::string& format) {
+    const std::string command = "cd \"$0\" && exec \"$1\" fetch \"$2\" -o - --format " + format;
+    return run_program({"sh", "-c", command, results.path().string(), VITRINE_BIN_DIR "/vitrine",
+                        url(daemon.port())});
+  };
+  const auto whole = fetch_to_output("pmesh");
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+  EXPECT_EQ(whole.output, std::string(sheet().begin(), sheet().end()));
+  EXPECT_THAT(whole.errors, HasSubstr("28322 faces"));
+  EXPECT_THAT(fetch_to_output("glb").output, ::testing::StartsWith("glTF"));
+  EXPECT_EQ(fetch_to_output("doc").exit_code, 2);
+  EXPECT_EQ(files(), 0u) << "what was on its way is gone";
+}
+
 TEST_F(FetchTest, FetchesThePicturesOfATexture) {
   const auto textured = tiny_pmesh("a base", "a chunk", {"small picture", "larger picture"}).bytes;
   {
@@ -99,6 +116,24 @@ TEST_F(FetchTest, FetchesThePicturesOfATexture) {
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_EQ(file_at(results.path() / "textured.pmesh"), textured);
   EXPECT_EQ(Json::parse(run.output)["received_bytes"], textured.size());
+}
+
+TEST_F(FetchTest, WritesTheCoarserLevelsOfAGlbOnRequest) {
+  const Daemon daemon(data.path());
+  const std::string from = url(daemon.port());
+  const auto levels_of = [&](const std::vector<std::string>& flags) {
+    const auto run = fetch(from, "a.glb", flags);
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    const auto glb = file_at(results.path() / "a.glb");
+    std::uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, sizeof size);
+    return Json::parse(glb.begin() + 20, glb.begin() + 20 + size)["meshes"].size();
+  };
+  EXPECT_EQ(levels_of({}), 1u);
+  const auto all = levels_of({"--lod", "msft"});
+  EXPECT_GE(all, 3u);
+  EXPECT_LT(levels_of({"--lod", "msft", "--level", "2"}), all);
+  EXPECT_EQ(fetch(from, "a.pmesh", {"--lod", "msft"}).exit_code, 2);
 }
 
 TEST_F(FetchTest, MeetsTheDetailTarget) {

@@ -61,7 +61,7 @@ TEST_F(PartialModelTest, TakesThePicturesThatAreNotInTheHead) {
   {
     PartialModel model = open();
     auto damaged = textured.bytes;
-    damaged[head - 1] ^= 1;  // damages the picture in the head
+    damaged[head - 1] ^= 1;  // damages the picture in the file's head
     EXPECT_FALSE(model.add({.total = head}, std::span(damaged).first(head)));
     ASSERT_TRUE(model.add({.total = head}, all.first(head)));
     EXPECT_TRUE(model.holds_picture(0));

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "server/store/text.h"
 #include "support/product_names.h"
 #include "vitrine_command.h"
@@ -201,7 +203,7 @@ TEST_F(VitrineCommand, MeasureWritesAMapOfTheDistances) {
   EXPECT_GT(measured["map"]["range"].get<double>(), 0);
   EXPECT_LE(measured["map"]["range"].get<double>(), measured["a_to_b"]["max"].get<double>());
   EXPECT_THAT(read("map.ply"), HasSubstr("property uchar red"));
-  expect_fault(vitrine({"measure", file, file, "--map", map}), 1);  // the file exists
+  expect_fault(vitrine({"measure", file, file, "--map", map}), 1);  // the map file already exists
 }
 
 TEST_F(VitrineCommand, MeasureRefusesAMapThatCannotHaveColours) {
@@ -239,13 +241,17 @@ constexpr const char* kDamagedObj =
 TEST_F(VitrineCommand, EveryRepairOfAFileWithManyFaultsIsListed) {
   const std::string in = write("in.obj", kDamagedObj);
   const json input = vitrine_json({"build", in, "-o", path("out.pmesh")})["input"];
-  EXPECT_EQ(input["repairs"],
-            json::array({"1 degenerate face dropped, first at face 9",
-                         "1 duplicate face dropped, first at face 8",
-                         "1 face reversed to agree with neighbours, first at face 7",
-                         "1 non-manifold edge split, first at face 0",
-                         "2 vertices split to part fans, first at vertex 0",
-                         "1 unreferenced vertex dropped"}));
+  EXPECT_EQ(
+      input["repairs"],
+      json::array({"1 degenerate face dropped, first at face 9; remove such parts in the source",
+                   "1 duplicate face dropped, first at face 8; remove such parts in the source",
+                   "1 face reversed to agree with neighbours, first at face 7; unify the normals "
+                   "in the source",
+                   "1 non-manifold edge split, first at face 0; separate the surfaces in the "
+                   "source, if they are not one object",
+                   "2 vertices split to part fans, first at vertex 0; separate the surfaces in the "
+                   "source, if they are not one object",
+                   "1 unreferenced vertex dropped; remove such parts in the source"}));
   EXPECT_EQ(input["faces"], 9);
   EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true);
 }
@@ -322,7 +328,7 @@ TEST_F(VitrineCommand, VerticesMovedBySinglePrecisionAreNoted) {
   vitrine_json({"build", in, "-o", path("far.pmesh"), "--unit", "m"});
   for (const std::string format : {"stl", "drc"}) {
     const ProgramResult moved = vitrine({"decode", path("far.pmesh"), "-o", path("far." + format)});
-    expect_fault(moved, 0);  // the note has the same form as an error message
+    expect_fault(moved, 0);  // exit code 0, and a note in the form of an error message
     EXPECT_THAT(moved.errors, HasSubstr("by up to 0.25; write PLY, OBJ or GLB"));
   }
   for (const std::string format : {"ply", "obj", "glb", "wrl"})
@@ -336,13 +342,54 @@ TEST_F(VitrineCommand, MaterialsThatLieBesideAnObjColourTheModel) {
                                "usemtl stone\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const json report = vitrine_json({"build", in, "-o", path("out.pmesh")});
   EXPECT_EQ(report["input"]["repairs"],
-            json::array({"material colours baked into vertex colours"}));
+            json::array(
+                {"colours of 1 material baked into vertex colours; use texture maps to keep their "
+                 "borders sharp"}));
   EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true);
   vitrine_json({"decode", path("out.pmesh"), "-o", path("out.ply")});
   EXPECT_NE(read("out.ply").find("property uchar red"), std::string::npos);
 }
 
-// A triangle whose corners, written as floats, are in the file "My buffer.bin".
+TEST_F(VitrineCommand, AFolderWithOneModelIsBuiltWithItsFiles) {
+  const std::string data = empty_folder("statue"), out = path("out.pmesh");
+  empty_folder("statue/source"), empty_folder("statue/textures");
+  write("statue/textures/stone.mtl", "newmtl stone\nKd 0.2 0.4 0.6\n");
+  write("statue/.hidden.ply", "ply");
+  write("statue/source/bust.obj",
+        "mtllib stone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl stone\nf 1 2 3\n");
+  EXPECT_THAT(vitrine_json({"build", data, "-o", out})["input"]["repairs"].dump(),
+              HasSubstr("colours of 1 material baked"));
+  const ProgramResult published = vitrine({"publish", data + "/", "--data", empty_folder("data")});
+  EXPECT_EQ(published.exit_code, 0) << published.errors;
+  EXPECT_THAT(published.errors, HasSubstr("colours of 1 material baked"));
+
+  write("statue/vase.ply", bumpy_ply(500));
+  const ProgramResult two = vitrine({"build", data, "-o", out});
+  expect_fault(two, 1);
+  EXPECT_THAT(two.errors, HasSubstr("the folder has 2 models, 'source/bust.obj', 'vase.ply'; give "
+                                    "one folder or file for each of them"));
+  EXPECT_THAT(vitrine({"build", data + "/textures", "-o", out}).errors,
+              HasSubstr("is a folder without a model"));
+}
+
+TEST_F(VitrineCommand, AnEmptyFileIsNotReplacedWithoutForce) {
+  const std::string in = write("in.ply", bumpy_ply(500)), out = write("out.pmesh", "");
+  const ProgramResult result = run_program({kVitrine, "build", in, "-o", out});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("out.pmesh exists"));
+  EXPECT_EQ(read("out.pmesh"), "");
+}
+
+// A name with a letter and its mark apart, as macOS writes it, finds the file of the composed name.
+TEST_F(VitrineCommand, PicturesAreFoundByDecomposedNames) {
+  write("f\xC3\xBCnf.mtl", "newmtl stone\nKd 0.2 0.4 0.6\n");
+  const std::string in = write(
+      "in.obj", "mtllib fu\xCC\x88nf.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl stone\nf 1 2 3\n");
+  EXPECT_THAT(vitrine_json({"build", in, "-o", path("out.pmesh")})["input"]["repairs"].dump(),
+              HasSubstr("colours of 1 material baked"));
+}
+
+// A glTF triangle. The file "My buffer.bin" contains its corners as floats.
 const std::string kGltf = R"({"asset": {"version": "2.0"},
   "buffers": [{"uri": "data/My%20buffer.bin", "byteLength": 36}],
   "bufferViews": [{"buffer": 0, "byteLength": 36}],
@@ -363,10 +410,21 @@ TEST_F(VitrineCommand, HelpAndVersionGoToStdout) {
   for (const char* command : {"build", "info", "decode", "verify", "measure", "publish"}) {
     const ProgramResult help = vitrine({command, "--help"});
     EXPECT_EQ(help.exit_code, 0);
-    EXPECT_NE(help.output.find("usage: vitrine " + std::string(command)), std::string::npos);
+    EXPECT_NE(help.output.find("Usage: vitrine " + std::string(command)), std::string::npos);
     EXPECT_NE(vitrine({"--help"}).output.find(command), std::string::npos);
   }
   EXPECT_EQ(vitrine({"--version"}).output.rfind("vitrine ", 0), 0u);
+}
+
+TEST_F(VitrineCommand, NoLineOfHelpIsLongerThan100Columns) {
+  std::vector<std::vector<std::string>> pages = {{"--help"}};
+  for (const char* command : {"build", "decode", "fetch", "measure", "publish", "scan", "token"})
+    pages.push_back({command, "--help"});
+  for (const auto& page : pages) {
+    std::istringstream help(vitrine(page).output);
+    for (std::string line; std::getline(help, line);)
+      EXPECT_LE(line.size(), 100u) << line;
+  }
 }
 
 TEST_F(VitrineCommand, NamesThatAreNotUtf8AreShownAsPlainText) {

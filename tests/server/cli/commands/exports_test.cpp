@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the figures that the program prints for a level. They must hold for the exported file when
-// other software reads it.
+// Tests the numbers that the program prints for a level, such as counts and errors. These numbers
+// must be true for the exported file as other software reads it.
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "codec/core/bounds.h"
 #include "support/dense_distance.h"
@@ -20,7 +21,8 @@ TriangleMesh read_as(const std::string& bytes, MeshFormat format) {
   return read_export({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, format);
 }
 
-// Returns the largest distance from a point of a fine grid on either surface to the other surface.
+// Takes a fine grid of points on each surface. Returns the largest distance from such a point to
+// the other surface.
 double farthest(const TriangleMesh& a, const TriangleMesh& b) {
   return std::max(dense_maximum(a, TriangleBvh(b)), dense_maximum(b, TriangleBvh(a)));
 }
@@ -37,7 +39,7 @@ TEST_F(VitrineCommand, TheErrorOfTheTableBoundsEveryExportOfEveryLevel) {
         SCOPED_TRACE(extension + " of level " + std::to_string(level) + ", " + bits + " bits");
         const double stated = levels[level]["max_error"].get<double>();
         const std::string out = "out." + extension;
-        const std::string up = extension == "3mf" ? "z" : "y";  // read_export() turns a 3MF
+        const std::string up = extension == "3mf" ? "z" : "y";  // read_export() turns 3MF to y up
         vitrine_json({"decode", path("out.pmesh"), "-o", path(out), "--unit", "m", "--up", up,
                       "--error", levels[level]["max_error"].dump()});
         const TriangleMesh mesh = read_as(read(out), *format_of_extension(extension));
@@ -69,8 +71,8 @@ TEST_F(VitrineCommand, AnExportHasTheUnitAndTheAxisOfItsFormatOrOfTheFlags) {
   expect_fault(vitrine({"decode", path("out.pmesh"), "-o", path("out.3mf"), "--up", "y"}), 2);
 }
 
-// At each level, a compressed file has the same surface as a plain one, within half a cell of the
-// level's lattice along each axis.
+// At each level, the surface of a compressed file differs from that of a plain file by at most half
+// a cell of the level's lattice along each axis.
 TEST_F(VitrineCommand, ACompressedGlbIsWithinTheLatticeOfItsLevel) {
   const std::string in = write("in.ply", bumpy_ply(2'000));
   vitrine_json({"build", in, "-o", path("out.pmesh"), "--unit", "m"});
@@ -95,11 +97,41 @@ TEST_F(VitrineCommand, ACompressedGlbIsWithinTheLatticeOfItsLevel) {
       vitrine({"decode", path("out.pmesh"), "-o", path("a.ply"), "--compression", "draco"}), 2);
 }
 
+// Returns the JSON of a GLB file.
+json json_of_glb(const std::string& glb) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, glb.data() + 12, sizeof size);
+  return json::parse(glb.substr(20, size));
+}
+
+TEST_F(VitrineCommand, AGlbHoldsCoarserLevelsOnRequest) {
+  const std::string in = write("in.ply", bumpy_ply(2'000));
+  vitrine_json({"build", in, "-o", path("out.pmesh"), "--unit", "m"});
+  const json levels = vitrine_json({"info", path("out.pmesh")})["levels"];
+  for (const std::string compression : {"none", "meshopt", "draco"}) {
+    const json report = vitrine_json({"decode", path("out.pmesh"), "-o", path("out.glb"), "--lod",
+                                      "msft", "--compression", compression});
+    EXPECT_EQ(report["faces"], levels.back()["faces"]);
+    const json glb = json_of_glb(read("out.glb"));
+    ASSERT_GE(glb["meshes"].size(), 2u);
+    const std::size_t base = glb["meshes"].back()["primitives"][0]["indices"];
+    EXPECT_EQ(glb["accessors"][base]["count"], levels[0]["faces"].get<int>() * 3);
+    EXPECT_EQ(read_as(read("out.glb"), MeshFormat::kGlb).faces.size(), levels.back()["faces"]);
+  }
+  const auto refused = [&](const std::string& out, std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"decode", path("out.pmesh"), "-o", path(out), "--lod"});
+    expect_fault(vitrine(flags), 2);
+  };
+  refused("a.ply", {"msft"});
+  refused("a.glb", {"all"});
+  refused("a.glb", {"msft", "--originals"});
+}
+
 TEST_F(VitrineCommand, AnUnknownUnitIsNotedIfTheFormatHasOne) {
   const std::string file = model(200);
   for (const std::string format : {"glb", "stl", "wrl", "3mf", "usdz"}) {
     const ProgramResult noted = vitrine({"decode", file, "-o", path("out." + format)});
-    expect_fault(noted, 0);  // the note has the same form as an error message
+    expect_fault(noted, 0);  // exit code 0, and a note in the form of an error message
     EXPECT_THAT(noted.errors, ::testing::HasSubstr("the unit of the model is unknown"));
   }
   vitrine_json({"decode", file, "-o", path("out.ply")});

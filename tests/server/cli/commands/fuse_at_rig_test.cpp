@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests vitrine fuse with scans of one object that the simulated scanner has made in several poses.
+// Tests `vitrine fuse` with several scans of one object. The simulated scanner made each scan in
+// another pose of the object.
 #include <gmock/gmock.h>
 
 #include "vitrine_command.h"
@@ -12,7 +13,8 @@ using testing::HasSubstr;
 
 class FuseAtRig : public VitrineCommand {
  protected:
-  // Scans `mesh` with its axis `up` upwards. `height` is its height along that axis, in mm.
+  // Scans `mesh`, turned so that its axis `up` points upwards. `height` is its height along that
+  // axis, in mm.
   void scan(const std::string& mesh, const std::string& up, const std::string& height,
             const std::string& name) {
     const ProgramResult result = run_program(
@@ -65,7 +67,7 @@ TEST_F(FuseAtRig, TheHeadStandingAndUpsideDownBecomesOneSurface) {
   EXPECT_LT(both["b_to_a"]["rms"].get<double>(), one["b_to_a"]["rms"].get<double>());
 }
 
-// From a body of revolution, the turn about its axis between two scans cannot be determined.
+// For a body of revolution, nobody can determine the rotation about its axis between two scans.
 TEST_F(FuseAtRig, ASymmetricObjectIsRefusedAndNothingIsWritten) {
   std::string ply;
   constexpr int kAround = 60, kRows = 40;

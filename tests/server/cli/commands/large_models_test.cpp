@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests builds of models with many regions. Also tests the progress and the files of a build that
-// is stopped.
+// Tests builds of models with many regions. Also tests the progress display and the files of a
+// build that is stopped.
 #include <gmock/gmock.h>
 
 #include "support/on_terminal.h"
@@ -24,8 +24,8 @@ TEST_F(VitrineCommand, AModelWithRegionsIsVerifiedInSeveralOrders) {
 TEST_F(VitrineCommand, TheProgressBarIsRedrawnWithoutNewReports) {
   const std::string in = write("in.ply", bumpy_ply(130'000));
   OnTerminal build({kVitrine, "build", in, "--force", "-o", path("out.pmesh")});
-  // Suspends the sandboxed child in its first stage, which is long. The child then sends no more
-  // reports.
+  // Suspends the sandboxed child process in its first stage, which is long. The child then reports
+  // no more progress.
   build.wait_for(" % read");
   build.signal_child(SIGSTOP);
   build.wait_for(" left", 3);

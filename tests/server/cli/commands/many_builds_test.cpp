@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests commands with many models and options.
+// Tests builds with all combinations of some options. Also tests that the error which a refused
+// export suggests is accepted.
 #include <set>
 
 #include "support/product_names.h"

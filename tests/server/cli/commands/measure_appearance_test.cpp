@@ -71,12 +71,15 @@ TEST_F(VitrineCommand, MeasureNotesPicturesThatItDoesNotCompare) {
   const std::string textured = write("textured.obj", kTexturedTriangle);
   const std::string plain = write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_THAT(vitrine({"measure", plain, textured, "--appearance"}).errors,
-              HasSubstr("note: B: material library 'm.mtl' not carried: it is not beside"));
+              HasSubstr("note: B: 1 material library 'm.mtl' not carried: it is not beside"));
   write("m.mtl", "newmtl m\nmap_Kd lost.png\n");
-  EXPECT_EQ(vitrine({"measure", textured, textured, "--appearance"}).errors,
-            "vitrine: note: "
-            "A: texture map 'lost.png' not carried: it is not beside the mesh file; "
-            "B: texture map 'lost.png' not carried: it is not beside the mesh file\n");
+  EXPECT_EQ(
+      vitrine({"measure", textured, textured, "--appearance"}).errors,
+      "vitrine: note: "
+      "A: 1 texture map 'lost.png' not carried: it is not beside the mesh file; copy it there, or "
+      "pack both in one zip; "
+      "B: 1 texture map 'lost.png' not carried: it is not beside the mesh file; copy it there, or "
+      "pack both in one zip\n");
   EXPECT_EQ(vitrine({"measure", textured, textured}).errors, "");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the progress that a build shows on a terminal.
+// Tests the progress display of a build on a terminal.
 #include <gmock/gmock.h>
 
 #include <algorithm>

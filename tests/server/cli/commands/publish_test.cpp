@@ -17,6 +17,7 @@ namespace vitrine::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 TEST_F(VitrineCommand, AnOpenInstallationServesAModelPublishedBesideIt) {
   const std::string data = path("data");
@@ -91,6 +92,23 @@ TEST_F(VitrineCommand, PublishingBesideTheDaemonKeepsToItsQuota) {
   vitrine_json({"publish", in, "--data", data});
 }
 
+TEST_F(VitrineCommand, PublishingBesideTheDaemonKeepsItsDiskReserveFree) {
+  const std::string in = write("in.ply", bumpy_ply(500)), data = empty_folder("data");
+  const std::string reserve = "9000000000000000000";
+  { const Daemon daemon(data, {"--disk-reserve", reserve}); }
+  const std::string file =
+      write("vitrined.conf", "data = " + data + "\ndisk-reserve = " + reserve + "\n");
+  for (const std::string& place : {data, file}) {
+    const ProgramResult refused = vitrine({"publish", in, "--data", place});
+    expect_fault(refused, 1);
+    EXPECT_THAT(refused.errors, HasSubstr("keeps " + reserve + " free; remove models"));
+  }
+  { const Daemon daemon(data, {"--disk-reserve", "0"}); }
+  vitrine_json({"publish", in, "--data", data});
+  { const Daemon daemon(data, {"--disk-reserve", reserve}); }
+  vitrine_json({"publish", in, "--data", data});  // its file is stored already
+}
+
 TEST_F(VitrineCommand, AnUnreadableDataFolderIsNamed) {
   // The name is too long for any file system.
   const std::string folder = path(std::string(300, 'd'));
@@ -148,7 +166,7 @@ TEST_F(VitrineCommand, AMeshIsPublishedOverARestartOfTheServer) {
   EXPECT_EQ(http_get(daemon->port(), "/api/v1/models/" + id).status, 200);
 }
 
-// A fixture with a daemon. Creates tokens for it.
+// A fixture with a running daemon. It can create tokens for the daemon.
 class AtServer : public VitrineCommand {
  protected:
   AtServer() : daemon_(empty_folder("data")) {}
@@ -211,15 +229,53 @@ TEST_F(VitrineCommand, MetadataFromFlagsIsStoredInAFolderToo) {
   EXPECT_EQ(found->record().licence, "CC0-1.0");
 }
 
-TEST_F(AtServer, WhatTheBuildChangedIsPrintedAndKeptInTheJob) {
+// Returns a mesh whose last face occurs twice.
+std::string mesh_with_duplicate() {
   const std::string text = bumpy_ply(500),
                     last = text.substr(text.rfind('\n', text.size() - 2) + 1);
   const std::string faces = "element face ";
   std::string twice = text + last;
   const std::size_t at = twice.find(faces) + faces.size();
   const std::size_t end = twice.find('\n', at);
-  twice.replace(at, end - at, std::to_string(std::stoi(twice.substr(at, end - at)) + 1));
-  const std::string in = write("in.ply", twice), by = token("operator");
+  return twice.replace(at, end - at, std::to_string(std::stoi(twice.substr(at, end - at)) + 1));
+}
+
+TEST_F(VitrineCommand, RepairsOfAModelInAFolderAreStored) {
+  const std::string data = empty_folder("data"), in = write("in.ply", mesh_with_duplicate());
+  const ProgramResult result = vitrine({"publish", in, "--data", data, "--json"});
+  EXPECT_THAT(result.errors, HasSubstr("in.ply: 1 duplicate face dropped"));
+  const auto id = ModelId::parse(nlohmann::json::parse(result.output).at("id").get<std::string>());
+  const auto installation = open_installation({.folder = data}).value();
+  EXPECT_THAT(installation.catalogue->find(id.value()).value()->repairs,
+              StartsWith("1 duplicate face dropped"));
+}
+
+TEST_F(AtServer, RepairsOfABuildOnThisMachineArePrintedOnceAndReachTheServer) {
+  const std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\n";
+  const std::string in = write("in.obj", obj + "f 1/1 2/1 3/1\nf 1/1 2/1 3/1\n"),
+                    by = token("operator");
+  write("a.mtl", "newmtl a\nmap_Kd missing.png\n");
+  const ProgramResult result = vitrine(at_server({"publish", in, "--json"}, by));
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string id = nlohmann::json::parse(result.output).at("id");
+  const std::string bearer = "Authorization: Bearer " + by + "\r\n";
+  const auto asked = [&](const std::string& path) {
+    return nlohmann::json::parse(http_get(daemon_.port(), "/api/v1" + path, bearer).body);
+  };
+  const nlohmann::json repairs = asked("/models/" + id)["repairs"];
+  EXPECT_THAT(repairs.dump(), HasSubstr("1 duplicate face dropped"));
+  EXPECT_THAT(repairs.dump(), HasSubstr("missing.png"));
+  EXPECT_EQ(asked("/jobs")["jobs"][0]["repairs"], repairs);
+  for (const auto& line : repairs) {
+    const std::string text = line;
+    const std::size_t first = result.errors.find(text);
+    EXPECT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(result.errors.find(text, first + 1), std::string::npos) << "twice: " << text;
+  }
+}
+
+TEST_F(AtServer, WhatTheBuildChangedIsPrintedAndKeptInTheJobAndTheModel) {
+  const std::string in = write("in.ply", mesh_with_duplicate()), by = token("operator");
   const std::string repair = "1 duplicate face dropped";
   const ProgramResult result = vitrine(at_server({"publish", in}, by));
   EXPECT_EQ(result.exit_code, 0);
@@ -228,6 +284,9 @@ TEST_F(AtServer, WhatTheBuildChangedIsPrintedAndKeptInTheJob) {
   const auto jobs = nlohmann::json::parse(http_get(daemon_.port(), "/api/v1/jobs", bearer).body);
   ASSERT_EQ(jobs["jobs"][0]["repairs"].size(), 1u) << jobs;
   EXPECT_THAT(jobs["jobs"][0]["repairs"][0].get<std::string>(), HasSubstr(repair));
+  const std::string path = "/api/v1/models/" + jobs["jobs"][0]["model"].get<std::string>();
+  EXPECT_EQ(nlohmann::json::parse(http_get(daemon_.port(), path, bearer).body)["repairs"],
+            jobs["jobs"][0]["repairs"]);
   EXPECT_THAT(vitrine({"publish", in, "--data", empty_folder("other")}).errors,
               HasSubstr("in.ply: " + repair));
 }
@@ -236,10 +295,12 @@ TEST_F(AtServer, APackageIsUploadedAndUnpackedByTheServer) {
   const std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
   const FilesToPack files{{"statue/a.obj", obj}, {"statue/a.mtl", "newmtl a\nKd 1 0 0\n"}};
   const std::string in = write("Statue.tar.gz", gzip_of(tar_of(files))), by = token("operator");
-  write("a.mtl", "newmtl a\nmap_Kd missing.png\n");  // is not that of the package
+  write(
+      "a.mtl",
+      "newmtl a\nmap_Kd missing.png\n");  // must be ignored, because the package has its own a.mtl
   const ProgramResult result = vitrine(at_server({"publish", in}, by));
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_THAT(result.errors, HasSubstr("material colours baked into vertex colours"));
+  EXPECT_THAT(result.errors, HasSubstr("colours of 1 material baked into vertex colours"));
   const auto shown = nlohmann::json::parse(http_get(daemon_.port(), "/api/v1/models").body);
   EXPECT_EQ(shown["models"][0]["title"], "Statue");
   EXPECT_EQ(shown["models"][0]["faces"], 1);

@@ -15,7 +15,7 @@ using testing::Not;
 
 class ReportCommand : public VitrineCommand {
  protected:
-  // Builds `in` with a report. Returns the page's content; checks that it is well-formed.
+  // Builds `in` with a report and checks that the report is well-formed. Returns its content.
   json report_of(const std::string& in) {
     vitrine_json({"build", in, "-o", path("out.pmesh"), "--report", path("out.html")});
     const ProgramResult result =
@@ -51,7 +51,7 @@ TEST_F(ReportCommand, ItHasAPlotAndFivePicturesAndFetchesNothing) {
   const json page = report_of(write("in.ply", bumpy_ply(12'000)));
   const std::size_t levels = page["levels"].size();
   EXPECT_GT(page["marks"].get<std::size_t>(),
-            2 * levels);  // the plot also marks single files, for comparison
+            2 * levels);  // the plot also has marks for single files, as a comparison
   EXPECT_EQ(page["pictures"], json(std::vector<std::string>(5, "data:image/png;base64,")));
   EXPECT_EQ(page["links"], json::array());
   EXPECT_EQ(page["scripts"], json::array());

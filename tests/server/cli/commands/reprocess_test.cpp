@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests `vitrine reprocess` with a scan that a simulated scanner has made.
+// Tests `vitrine reprocess` on a scan made by a simulated scanner.
 #include <gmock/gmock.h>
 
 #include "acquisition/calibration/calibration_store.h"
@@ -23,11 +23,11 @@ class ReprocessCommand : public VitrineCommand {
     EXPECT_TRUE(CalibrationStore(path("calibrations")).add(fake_calibration()));
   }
 
-  void scan(bool keep_frames, FakeObject object = FakeObject::kColumn) {
+  void scan(bool keeps_frames, FakeObject object = FakeObject::kColumn) {
     FakeWorld world;
     world.object = object;
     const auto scan = Scan::create(fake_scanner(world, path("calibrations")),
-                                   {.steps = 12, .keep_frames = keep_frames}, path("scan"));
+                                   {.steps = 12, .keeps_frames = keeps_frames}, path("scan"));
     ASSERT_TRUE(scan) << scan.error().message;
     ASSERT_TRUE((*scan)->resume());
     ASSERT_EQ((*scan)->wait(std::chrono::hours(1)).state, ScanState::kDone);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests a complete scan over the real protocols. vitrine-rig simulates the scanner and the target.
-// vitrine calibrates the scanner and scans an object. The result is compared with the true surface.
+// Tests a complete scan over the real protocols. vitrine-rig simulates the scanner and the
+// calibration target. The program `vitrine` calibrates the scanner and scans an object. The test
+// compares the result with the true surface.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -20,8 +21,8 @@ class ScanAtRig : public VitrineCommand {
  protected:
   ScanAtRig() { write("object.ply", bumpy_ply(3'000)); }
 
-  // Runs the script on the simulated rig, in the test's folder. rig.json there describes the
-  // scanner.
+  // Runs the script with a simulated rig, in the test's folder. In this folder, rig.json describes
+  // the scanner.
   ProgramResult at_rig(const std::string& script, const std::vector<std::string>& options = {}) {
     std::vector<std::string> words = {VITRINE_BIN_DIR "/vitrine-rig",
                                       "--mesh",
@@ -40,15 +41,15 @@ class ScanAtRig : public VitrineCommand {
                                folder_.path().string(), kVitrine});
     return run_program(words);
   }
-  // Calibrates the rig, which makes calibration 1. Later rigs have the same seed, so the
-  // calibration is valid for them, too.
+  // Calibrates the rig and stores the result as calibration 1. Later rigs have the same seed, so
+  // the calibration is also valid for them.
   void calibrate() {
     const ProgramResult result =
         at_rig("\"$vitrine\" calibrate --config rig.json --json > calibration.json");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
   }
-  // Returns the points that a measuring machine would find for calibration 1, as CSV, rounded to
-  // micrometres.
+  // Returns, as CSV, the points that a measuring machine would find for calibration 1. Coordinates
+  // are rounded to micrometres.
   std::string measured_points() const {
     const PlaneMap map = CalibrationStore(path("calibrations")).load(1).value().map;
     std::string csv = "u,v,x,y,pose\n";
@@ -63,7 +64,8 @@ class ScanAtRig : public VitrineCommand {
   static std::string scan_to(const std::string& out, const std::string& more = "") {
     return "\"$vitrine\" scan --config rig.json -o " + out + " " + more;
   }
-  // Returns a script that scans to `out` and sends `signal` once a few steps are on the disk.
+  // Returns a script that starts a scan to `out`. The script sends `signal` to the scan after a few
+  // steps have been stored.
   static std::string stopped_amid(const std::string& signal, const std::string& out) {
     return scan_to(out) + " & scan=$!; " + "until [ -e " + out + " ] || [ \"$(stat -c %s " + out +
            ".scan/profiles 2>/dev/null || echo 0)\" -gt 20000 ]; "
@@ -152,8 +154,8 @@ TEST_F(ScanAtRig, ARestartedRigContinuesAtItsTablesPosition) {
   EXPECT_TRUE(read("out.ply") == expected);
 }
 
-// A step of the scan is 53.3 motor steps, but the table can stop only at whole ones. A scan that
-// continues must round to the same motor steps as an undisturbed scan.
+// A step of this scan is 53.3 motor steps, but the table can stop only at whole motor steps. A
+// resumed scan must round to the same motor steps as an undisturbed scan.
 TEST_F(ScanAtRig, ABoardThatDoesNotCountContinuesAtTheSameMotorStep) {
   calibrate();
   const std::vector<std::string> fabscan = {"--dialect", "fabscan"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests "-", the name of standard input and standard output, in pipes of a shell.
+// Tests "-" as a file name for standard input and standard output, in pipes of a shell.
 #include <gmock/gmock.h>
 
 #include "support/product_names.h"

@@ -12,7 +12,7 @@ namespace {
 using cli::StopSignals;
 
 TEST(StopSignals, RequestAStop) {
-  std::signal(SIGHUP, SIG_DFL);  // the tests themselves may run under nohup
+  std::signal(SIGHUP, SIG_DFL);  // nohup may have set SIGHUP to be ignored in the tests
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const StopSignals signals;
     EXPECT_FALSE(StopSignals::arrived());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the files that `decode` writes of a textured model.
+// Tests the files that `vitrine decode` writes for a textured model.
 #include <gmock/gmock.h>
 
 #include "codec/build/build_model.h"
@@ -38,7 +38,7 @@ class TexturedExports : public VitrineCommand {
                   [&](const std::string& name) { return std::ranges::count(before_, name) > 0; });
     return names;
   }
-  // Expects that a mesh with these companions has coordinates and one picture.
+  // Reads `mesh` with the companion files `by`. Expects texture coordinates and one picture.
   static void expect_textured(const std::string& mesh,
                               const std::map<std::string, std::string>& by) {
     ReadOptions options;

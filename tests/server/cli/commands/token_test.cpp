@@ -11,7 +11,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Looks up the token as a daemon on the data folder would. Returns nullopt if it is unknown.
+// Looks up the token as a daemon that uses the data folder would. Returns nullopt if the token is
+// unknown.
 std::optional<Caller> find(const std::string& data, const std::string& token) {
   const auto installation = open_installation({.folder = data}).value();
   return Authenticator(*installation.catalogue).find(token).value();
@@ -21,7 +22,7 @@ TEST_F(VitrineCommand, ATokenIsCreatedOfflineAndShownOnce) {
   std::filesystem::create_directory(path("data"));
   const ProgramResult result =
       vitrine({"token", "create", "--role", "admin", "--data", path("data")});
-  expect_fault(result, 0);  // the note has the same form as an error message
+  expect_fault(result, 0);  // exit code 0, and a note in the form of an error message
   EXPECT_THAT(result.errors, HasSubstr("is shown only now"));
   ASSERT_EQ(result.output.size(), 48u);
   const auto caller = find(path("data"), result.output.substr(0, 47));

@@ -53,7 +53,7 @@ class VitrineCommand : public testing::Test {
     return names;
   }
 
-  // Runs a command. Commands that write files replace those of an earlier call.
+  // Runs a command. If the command writes files, it replaces the files of an earlier call.
   static ProgramResult vitrine(std::vector<std::string> words) {
     const std::string command = words.empty() ? "" : words[0];
     if (command == "build" || command == "decode") words.insert(words.begin() + 1, "--force");

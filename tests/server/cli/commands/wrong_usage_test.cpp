@@ -13,6 +13,7 @@
 namespace vitrine::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -69,6 +70,18 @@ TEST_F(VitrineCommand, BashCompletesCommandsFlagsAndChoices) {
   EXPECT_EQ(completed("vitrine token cr", 2), "create\n");
   EXPECT_EQ(completed("vitrine build -o ''", 3), "\n");
   expect_fault(vitrine({"completion", "dos"}), 2);
+  EXPECT_THAT(vitrine({"completion"}).errors, HasSubstr("bash|zsh|fish is missing"));
+}
+
+TEST_F(VitrineCommand, ZshAndFishCompleteFromTheSameTable) {
+  const std::string zsh = vitrine({"completion", "zsh"}).output;
+  EXPECT_THAT(zsh, AllOf(HasSubstr("#compdef vitrine\n"), HasSubstr("bashcompinit\n"),
+                         HasSubstr(vitrine({"completion", "bash"}).output)));
+  const std::string of_build = "complete -c vitrine -n '__fish_seen_subcommand_from build' ";
+  EXPECT_THAT(vitrine({"completion", "fish"}).output,
+              AllOf(HasSubstr(of_build + "-l placement -x -a 'midpoint pyramid'\n"),
+                    HasSubstr(of_build + "-s o -r\n"), HasSubstr(of_build + "-l json\n"),
+                    HasSubstr("-n __fish_use_subcommand -a '")));
 }
 
 TEST_F(VitrineCommand, AMissingFileIsNamed) {
@@ -205,8 +218,8 @@ TEST_F(VitrineCommand, AClosedStdoutEndsTheCommandSilently) {
   }
 }
 
-// Runs the command with a small disk mounted at `out`, in a private mount namespace. `prepare` runs
-// first. The names of the files left on the disk are added to the output.
+// Mounts a small disk at `out`, in a private mount namespace, and runs the command. `prepare` runs
+// before the command. Appends the names of the files left on the disk to the output.
 ProgramResult run_on_small_disk(const std::string& prepare, const std::string& out,
                                 const std::vector<std::string>& words) {
   std::vector<std::string> line = {"unshare"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the doctor's findings about a data folder.
-#include "server/cli/doctor/check_data.h"
+#include "server/cli/doctor/checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

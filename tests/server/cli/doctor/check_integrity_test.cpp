@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/cli/doctor/check_integrity.h"
+#include "server/cli/doctor/checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ struct Mark {
   double x, y;
 };
 
-// Returns the marks of the line, without those of the legend.
+// Returns the marks on the plotted line, without the marks of the legend.
 std::vector<Mark> marks(const std::string& drawing) {
   static const std::regex kMark(R"re(<circle cx="([\d.]+)" cy="([\d.]+)" r="3.5"><title>)re");
   std::vector<Mark> out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program that uses the package's types. It is checked, not run.
+// A program that uses the package's types. It is type-checked, but not run.
 import { PerspectiveCamera, Scene } from "three";
 import { ModelError, ProgressiveMeshLoader, setBudget, type ProgressiveMesh } from "@vitrine/progressive-mesh";
 import { ProgressiveMeshElement, type Assets } from "@vitrine/progressive-mesh/element";

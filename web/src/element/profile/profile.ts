@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The profile of a surface along a straight cut: its heights above the line between two points, as the visitor sees it. The GPU
 // draws the depth of the cut as one row of pixels, so the time does not depend on the number of triangles.
-import { DoubleSide, Mesh, MeshDepthMaterial, PerspectiveCamera, RGBADepthPacking, Scene, Vector3, WebGLRenderTarget, type BufferGeometry, type WebGLRenderer } from "three";
+import { DoubleSide, Mesh, MeshDepthMaterial, PerspectiveCamera, RGBADepthPacking, Scene, Vector3, WebGLRenderTarget, type Sphere, type WebGLRenderer } from "three";
 
 export interface Sample {
   /** Distance from the first point along the line, in model units. */
@@ -20,12 +20,12 @@ export interface Cut {
 }
 
 /**
- * Returns the profile of `geometry`, which must have a bounding sphere. Returns an empty list if the points
+ * Returns the profile of `surface`, whose geometry must have a bounding sphere. Returns an empty list if the points
  * coincide or are in line with the eye.
  * `unpackDepth` converts four bytes of three.js' RGBADepthPacking to a depth from 0 to 1.
  */
-export function profileOf(renderer: WebGLRenderer, geometry: BufferGeometry, { from, to, eye }: Cut, unpackDepth: (bytes: Iterable<number>) => number): Sample[] {
-  const along = to.clone().sub(from), length = along.length(), { center, radius } = geometry.boundingSphere ?? { center: from, radius: length };
+export function profileOf(renderer: WebGLRenderer, surface: Mesh, { from, to, eye }: Cut, unpackDepth: (bytes: Iterable<number>) => number): Sample[] {
+  const along = to.clone().sub(from), length = along.length(), { center, radius } = sphereOf(surface) ?? { center: from, radius: length };
   along.normalize();
   const up = eye.clone().sub(from);
   up.addScaledVector(along, -up.dot(along)).normalize();
@@ -39,17 +39,23 @@ export function profileOf(renderer: WebGLRenderer, geometry: BufferGeometry, { f
   camera.updateMatrixWorld();
   camera.projectionMatrix.makeOrthographic(0, length, length / kSamples / 2, -length / kSamples / 2, 0, 2 * above);
   camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
-  return depths(renderer, geometry, camera).map((bytes, i) => ({
+  return depths(renderer, surface, camera).map((bytes, i) => ({
     distance: ((i + 0.5) / kSamples) * length,
     height: bytes.some((byte) => byte > 0) ? above - 2 * above * unpackDepth(bytes) : undefined,
   }));
 }
 
+/** Returns the bounding sphere of a mesh in world coordinates. */
+function sphereOf({ geometry: { boundingSphere }, matrixWorld }: Mesh): Sphere | undefined {
+  return boundingSphere?.clone().applyMatrix4(matrixWorld);
+}
+
 /** Draws one row of packed depths. Returns the four bytes of each pixel. */
-function depths(renderer: WebGLRenderer, geometry: BufferGeometry, camera: PerspectiveCamera): Uint8Array[] {
+function depths(renderer: WebGLRenderer, surface: Mesh, camera: PerspectiveCamera): Uint8Array[] {
   const target = new WebGLRenderTarget(kSamples, 1), material = new MeshDepthMaterial({ depthPacking: RGBADepthPacking, side: DoubleSide });
-  const mesh = new Mesh(geometry, material), bytes = new Uint8Array(4 * kSamples);
+  const mesh = new Mesh(surface.geometry, material), bytes = new Uint8Array(4 * kSamples);
   mesh.frustumCulled = false;
+  mesh.applyMatrix4(surface.matrixWorld);
   renderer.setRenderTarget(target);
   renderer.render(new Scene().add(mesh), camera);
   renderer.readRenderTargetPixels(target, 0, 0, kSamples, 1, bytes);
@@ -70,8 +76,8 @@ export function csvOf(samples: readonly Sample[], unit: string): string {
 const kWidth = 320, kHeight = 140, kEdge = 14;
 
 /**
- * Returns the profile as a drawing, in which heights and distances have the same scale if it fits. `lengthOf`
- * formats a length.
+ * Returns the profile as a drawing, in which heights and distances have the same scale if the profile then
+ * fits. `lengthOf` formats a length.
  */
 export function svgOf(samples: readonly Sample[], lengthOf: (value: number) => string): string {
   const heights = samples.flatMap(({ height }) => height ?? []), low = Math.min(...heights, 0), high = Math.max(...heights, 0);

@@ -28,8 +28,8 @@ const kSmallestHalf = 2 ** -14;
 export const kMapWidth = 3 * kSmallest * (1 + kBlurs.length), kMapHeight = 4 * kLargest;
 
 /**
- * Returns the map's RGBA texels as half floats. `radiance` is the light, without colour, from the direction
- * of a unit vector.
+ * Returns the map's RGBA texels as half floats. `radiance` returns the light, without colour, that arrives
+ * from a direction (a unit vector).
  */
 export function environmentMap(radiance: (direction: Triple) => number): Uint16Array<ArrayBuffer> {
   const map = new Uint16Array(4 * kMapWidth * kMapHeight);
@@ -39,6 +39,31 @@ export function environmentMap(radiance: (direction: Triple) => number): Uint16A
   const source = samples(radiance);
   kBlurs.forEach((blur, i) => draw(map, kSmallest, 3 * kSmallest * (i + 1), (face, u, v) => blurred(source, directionOf(face, u, v), blur)));
   return map;
+}
+
+export const kPlainWidth = 128, kPlainHeight = kPlainWidth / 2;
+
+/**
+ * Returns the RGBA texels, as half floats, of a map without blur in equirectangular projection. The first row is the lowest one, as
+ * in a DataTexture of three.js.
+ */
+export function plainMap(radiance: (direction: Triple) => number): Uint16Array<ArrayBuffer> {
+  const map = new Uint16Array(4 * kPlainWidth * kPlainHeight);
+  for (let y = 0; y < kPlainHeight; ++y) {
+    for (let x = 0; x < kPlainWidth; ++x) {
+      const light = mean(kRays, (du, dv) => radiance(plainDirection((x + 0.5 + du) / kPlainWidth, (y + 0.5 + dv) / kPlainHeight)));
+      const at = 4 * (y * kPlainWidth + x);
+      map.fill(toHalf(light), at, at + 3);
+      map[at + 3] = toHalf(1);
+    }
+  }
+  return map;
+}
+
+/** Returns the direction of a point of an equirectangular map: the inverse of equirectUv() in three.js' shader common.glsl.js. */
+function plainDirection(u: number, v: number): Triple {
+  const around = 2 * Math.PI * (u - 0.5), up = Math.PI * (v - 0.5);
+  return [Math.cos(up) * Math.cos(around), Math.sin(up), Math.cos(up) * Math.sin(around)];
 }
 
 /**

@@ -34,7 +34,10 @@ const kBoxes: readonly Box[] = [
   { centre: [-7, 16, -14], size: [2.5, 2.5, 0.1], shine: 80 },
 ];
 
-/** A box with the eye in the box's coordinates, and the cosine and sine of its rotation. */
+/**
+ * A box, with the position of the eye in the box's coordinates, and the cosine and sine of the
+ * box's rotation.
+ */
 interface Placed extends Box {
   eye: Triple;
   cosine: number;
@@ -54,7 +57,7 @@ function inBox({ cosine, sine }: Pick<Placed, "cosine" | "sine">, [x, y, z]: Tri
   return [cosine * x - sine * z, y, cosine * z + sine * x];
 }
 
-/** Returns the radiance that arrives in the middle of the room from `direction`, a unit vector. It has no colour. */
+/** Returns the radiance, without colour, that arrives in the middle of the room from `direction`, a unit vector. */
 export function radiance(direction: Triple): number {
   let distance = crossing(kPlacedWalls, direction, true), nearest = kPlacedWalls;
   for (const box of kPlacedBoxes) {
@@ -88,7 +91,8 @@ function crossing({ size, eye, cosine, sine }: Placed, [x, y, z]: Triple, isInsi
 function reflected(box: Placed, direction: Triple, distance: number): number {
   const along = inBox(box, direction);
   const share = ([0, 1, 2] as const).map((i) => Math.abs(box.eye[i] + distance * along[i]) / box.size[i]);
-  // axis of the surface's normal: the axis whose side of the box the point is on
+  // Axis perpendicular to the side of the box that contains the point. Along this axis, the point's
+  // distance from the box's centre is largest, relative to the box's size.
   const axis = share.indexOf(Math.max(...share)) as 0 | 1 | 2;
   const toLamp: Triple = [kLamp.at[0] - kEye[0] - distance * direction[0], kLamp.at[1] - kEye[1] - distance * direction[1], kLamp.at[2] - kEye[2] - distance * direction[2]];
   const far = Math.hypot(...toLamp);

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// A soft shadow on the ground below a model, as in model-viewer: the model is drawn from below, darker where it is nearer to the
-// ground, and blurred. The shadow is drawn after the scene, so that nothing else in the scene has to know of it.
+// A soft shadow on the ground below a model, as in model-viewer. The model is drawn from below, darker where it is nearer to the
+// ground. Then this picture is blurred. The shadow is drawn after the scene, so that it does not affect the other objects of the
+// scene.
 import {
   BufferAttribute, BufferGeometry, DoubleSide, Mesh, PerspectiveCamera, Scene, ShaderMaterial, Vector3, WebGLRenderTarget,
   type Camera, type WebGLRenderer,
 } from "three";
+import type { ProgressiveMesh } from "../../three/progressive-mesh.ts";
 
 /** Side of the shadow's picture in pixels. */
 const kSide = 128;
-/** Part of the ground's picture, at each side, that is free for the blurred edge. */
+/** Margin for the blurred edge at each border of the shadow's picture, as a fraction of the picture's width. */
 const kMargin = 0.2;
 /** Widths of the blurs in pixels: standard deviations of Gaussians. */
 const kBlurs = [1.5, 5];
-/** Height above the ground at which a surface no longer darkens it, as a part of the model's largest side. */
+/**
+ * Height above the ground at which a surface no longer darkens the ground, as a part of the model's largest
+ * side.
+ */
 const kReach = 0.4;
 
 const kGround = "varying vec2 at; void main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }";
@@ -21,7 +26,7 @@ const kHeight = `#include <clipping_planes_pars_vertex>
   varying float height; uniform float ground, reach;
   void main() {
     vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
-    height = (position.y - ground) / reach;
+    height = ((modelMatrix * vec4(position, 1.0)).y - ground) / reach;
     gl_Position = projectionMatrix * mvPosition;
     #include <clipping_planes_vertex>
   }`;
@@ -66,10 +71,12 @@ export class ContactShadow {
   #isStale = true;
   #section: unknown; // the clipping planes with which the shadow was computed
 
-  /** `geometry` must have a bounding box. The caller keeps its ownership. */
-  constructor(private readonly renderer: WebGLRenderer, geometry: BufferGeometry) {
-    this.#model = new Scene().add(unculled(new Mesh(geometry, this.#body)));
-    const { min, max } = geometry.boundingBox ?? { min: new Vector3(), max: new Vector3() };
+  /** Casts the shadow of `mesh`, whose base mesh must be loaded. The caller keeps its ownership. */
+  constructor(private readonly renderer: WebGLRenderer, mesh: ProgressiveMesh) {
+    const body = unculled(new Mesh(mesh.geometry, this.#body));
+    body.applyMatrix4(mesh.matrixWorld);
+    this.#model = new Scene().add(body);
+    const { min, max } = mesh.presentedBox ?? { min: new Vector3(), max: new Vector3() };
     const size = max.clone().sub(min), side = Math.max(size.x, size.z) / (1 - 2 * kMargin) || 1, reach = kReach * Math.max(size.x, size.y, size.z) || 1;
     const middle = min.clone().add(max).multiplyScalar(0.5);
     this.#body.uniforms.ground!.value = min.y;
@@ -94,12 +101,15 @@ export class ContactShadow {
     await Promise.all([...shaders, renderer.compileAsync(this.#onGround, this.#below)]);
   }
 
-  /** Lets the next call of draw() compute the shadow again. */
+  /** Makes the next call of draw() compute the shadow again. */
   forget(): void {
     this.#isStale = true;
   }
 
-  /** Draws the shadow over what `camera` sees, behind the model. */
+  /**
+   * Draws the shadow into the frame that `camera` has just drawn. The model hides the parts of the
+   * shadow behind it.
+   */
   draw(camera: Camera): void {
     const { autoClear } = this.renderer;
     if (this.#isStale || this.#section !== this.renderer.clippingPlanes) this.#cast();
@@ -132,7 +142,7 @@ export class ContactShadow {
   }
 }
 
-/** Lets a mesh be drawn wherever the camera is. */
+/** Turns off frustum culling, so that a mesh is drawn wherever the camera is. */
 function unculled(mesh: Mesh): Mesh {
   mesh.frustumCulled = false;
   return mesh;

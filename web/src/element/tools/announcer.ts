@@ -18,7 +18,7 @@ export function passesHalf(before: number, now: number, total: number): boolean 
 export class Announcer implements Tool {
   #seen = "";
   #bytes = 0;
-  // Whether the next `load` event is announced. The first one is announced, and so is each one that
+  // Whether the next `load` event is announced. The first event is announced, and each event that
   // follows a request of the visitor.
   #hasAsked = false;
   #resting: ReturnType<typeof setTimeout> | undefined;

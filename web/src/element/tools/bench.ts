@@ -38,6 +38,6 @@ export interface Tool {
   attach?(until: AbortSignal): void;
   /** Restores the initial settings. */
   reset?(): void;
-  /** The setting that links keep, as text. Empty if it is the initial one. Malformed texts are ignored. */
+  /** The tool's setting as a text for shared links. Empty for the initial setting. The setter ignores malformed texts. */
   setting?: string;
 }

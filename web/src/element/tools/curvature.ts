@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shades a surface by its mean curvature, without light and colour: ridges are bright, grooves are dark.
 
-/** Curvature that is drawn halfway between grey and white, as a multiple of 1 / the model's radius. */
+/** Curvature, multiplied by the model's radius, that is drawn halfway between grey and white. */
 const kHalfway = 20;
 
 /**
- * Returns GLSL for the fragment shader of a MeshStandardMaterial. `radius` is that of the model, in its units. The mean curvature
- * comes from the coefficients of the first (E, F, G) and second (e, f, g) fundamental form. Their derivatives are differences
- * between neighbouring pixels.
+ * Returns GLSL for the fragment shader of a MeshStandardMaterial. `radius` is the model's radius in model units. The mean
+ * curvature comes from the coefficients of the first (E, F, G) and second (e, f, g) fundamental form. Their derivatives are
+ * differences between neighbouring pixels.
  */
 export function curvatureShading(radius: number): string {
   return `{

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells a visitor who does nothing for some seconds that the model can be turned. The hint is not for screen readers, which
-// read the names of the keys instead.
+// Tells a visitor who does nothing for some seconds that the model can be turned. The hint is hidden from screen readers,
+// because they read the names of the keys instead.
 import type { Bench, Tool } from "./bench.ts";
 import { make } from "./dom.ts";
 
-const kPatience = 3000; // milliseconds without input
+const kHintDelay = 3000; // milliseconds without input
 
 export class DragHint implements Tool {
   readonly #hint: HTMLElement;
@@ -24,7 +24,7 @@ export class DragHint implements Tool {
   /** Starts the wait again, for the next visitor of a kiosk. */
   reset(): void {
     this.#end();
-    this.#timer = setTimeout(() => (this.#hint.hidden = !this.bench.stage.parts.controls.enabled), kPatience);
+    this.#timer = setTimeout(() => (this.#hint.hidden = !this.bench.stage.parts.controls.enabled), kHintDelay);
   }
 
   #end(): void {

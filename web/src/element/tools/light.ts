@@ -2,6 +2,7 @@
 // Lighting presets. The museum's light is the default: a room for textured models, a lamp and a sky for
 // untextured ones. Raking light comes from the side, nearly parallel to the surface, so that shading reveals
 // every tool mark. The visitor can turn the direction of raking light.
+import type { PresentedLight } from "../../core/presentation.ts";
 import type { Lighting } from "../lights.ts";
 import type { Bench, Tool } from "./bench.ts";
 import { choices, make } from "./dom.ts";
@@ -9,8 +10,8 @@ import { choices, make } from "./dom.ts";
 export type Preset = "museum" | "studio" | "raking" | "relief";
 
 /**
- * Component of the raking light's direction towards the visitor, if the component in the plane of
- * the screen has length 1.
+ * Component of the raking light's direction towards the visitor, divided by the component in the
+ * plane of the screen.
  */
 const kLift = 0.14;
 const kFirstAngle = 315; // degrees clockwise from the top: upper left, as is usual for reliefs
@@ -39,6 +40,7 @@ export class Light implements Tool {
   readonly #dial: HTMLElement;
   #preset: Preset = "museum";
   #angle = kFirstAngle;
+  #isChosen = false; // whether the visitor or a link has chosen the light
 
   constructor(private readonly bench: Bench) {
     const { texts } = bench;
@@ -50,28 +52,55 @@ export class Light implements Tool {
     this.#dial.addEventListener("keydown", (event) => this.#press(event));
     this.#dial.addEventListener("pointerdown", (event) => this.#hold(event));
     this.#dial.addEventListener("pointermove", (event) => this.#dial.hasPointerCapture(event.pointerId) && this.#point(event));
-    const presets = choices("light", texts.light, { museum, studio, raking, relief }, (preset) => this.#choose(preset));
+    const presets = choices("light", texts.light, { museum, studio, raking, relief }, (preset) => {
+      this.#isChosen = true;
+      this.#choose(preset);
+    });
     this.content = make("div", {}, presets, this.#dial);
   }
 
   attach(): void {
-    // Lamp and sky are the museum's light for a model without textures.
+    // Without textures, the preset "relief" would be the same as the museum's light, so it is
+    // hidden.
     (this.#radio("relief").parentElement as HTMLElement).hidden = !this.bench.stage.mesh.info.texture;
-    this.#shine();
+    this.#take(this.#isChosen ? this.#chosen : this.#first);
   }
 
   reset(): void {
-    this.#angle = kFirstAngle;
-    this.#select("museum");
+    this.#isChosen = false;
+    this.#take(this.#first);
   }
 
   get setting(): string {
-    if (this.#preset === "museum") return "";
-    return this.#preset === "raking" ? `raking,${this.#angle}` : this.#preset;
+    return this.#chosen === this.#first ? "" : this.#chosen;
   }
   set setting(text: string) {
     const [preset = "", angle] = text.split(",");
-    if (!Object.hasOwn(kLightings, preset)) return;
+    if (!Object.hasOwn(kLightings, preset) && preset !== "museum") return;
+    this.#isChosen = true;
+    this.#take(text);
+  }
+
+  /** The light as a presentation states it. Null stands for the museum's light. */
+  get presented(): PresentedLight | null {
+    return this.#preset === "museum" ? null : { preset: this.#preset, angle: this.#angle };
+  }
+
+  get #chosen(): string {
+    return this.#preset === "raking" ? `raking,${this.#angle}` : this.#preset;
+  }
+
+  /** The light that the presentation of the model chooses. */
+  get #first(): string {
+    const light = this.bench.stage.mesh.info.presentation?.light;
+    if (!light || !Object.hasOwn(kLightings, light.preset)) return "museum";
+    return light.preset === "raking" ? `raking,${wholeDegrees(light.angle)}` : light.preset;
+  }
+
+  /** Chooses the light that a setting describes. */
+  #take(text: string): void {
+    const [preset, angle] = text.split(",");
+    this.#angle = kFirstAngle;
     if (Number.isFinite(Number(angle))) this.#angle = wholeDegrees(Number(angle));
     this.#select(preset as Preset);
   }
@@ -102,7 +131,10 @@ export class Light implements Tool {
     void stage.draw();
   }
 
-  /** Models without textures are in the room only in the studio. */
+  /**
+   * The lighting of the chosen preset. A model without textures is lit by the room only in the
+   * preset "studio".
+   */
   get #lighting(): Lighting | undefined {
     const hasRoom = this.bench.stage.mesh.info.texture !== undefined;
     if (this.#preset === "museum") return hasRoom ? undefined : kLightings.relief;
@@ -112,6 +144,7 @@ export class Light implements Tool {
   }
 
   #turn(angle: number): void {
+    this.#isChosen = true;
     this.#angle = wholeDegrees(angle);
     this.#shine();
   }

@@ -12,7 +12,7 @@ import { Vector3 } from "three";
 /** Maximum distance, in pixels, that the pointer may move during a click. */
 const kStill = 5;
 
-/** The numbers of points that a measure needs and takes. A further point begins a new measure. */
+/** Smallest and largest number of points of each measure. One more point begins a new measurement. */
 const kPoints = { distance: [2, 2], angle: [3, 3], area: [3, 64], profile: [2, 2] } as const;
 type Measurement = keyof typeof kPoints;
 
@@ -52,7 +52,7 @@ export class Measure implements Tool {
 
   attach(until: AbortSignal): void {
     this.reset();
-    const { geometry, info } = this.bench.stage.mesh, { x = 0, y = 0, z = 0 } = geometry.boundingBox?.getSize(new Vector3()) ?? {};
+    const { presentedBox, info } = this.bench.stage.mesh, { x = 0, y = 0, z = 0 } = presentedBox?.getSize(new Vector3()) ?? {};
     this.#size.textContent = this.bench.texts.extent(x, y, z, info.unit);
     const canvas = this.bench.view.querySelector("canvas") as HTMLCanvasElement;
     let down: PointerEvent | undefined;
@@ -93,7 +93,7 @@ export class Measure implements Tool {
     this.bench.say(`${texts.measures[this.#kind]}: ${value}`);
   }
 
-  /** Returns the result as text. `points` are as many as the measure needs. */
+  /** Returns the result as text. `points` has at least as many points as the measure needs. */
   #measured(points: Vector3[]): string {
     const { texts, stage } = this.bench, { unit } = stage.mesh.info, [first, second, third] = points as [Vector3, Vector3, Vector3];
     if (this.#kind === "angle") return texts.measured(angleAt(second, first, third), "°");

@@ -50,7 +50,10 @@ export class Notes implements Tool {
     this.#open();
   }
 
-  /** Shows the note of a link, once the notes are loaded. The link has its own view, so the camera stays. */
+  /**
+   * Shows the note that a link names, once the notes are loaded. Does not move the camera, because the link
+   * also states the view.
+   */
   #open(): void {
     if (this.#wanted === undefined || !this.#marks[this.#wanted]) return;
     this.#mark(this.#wanted);
@@ -131,8 +134,8 @@ export class Notes implements Tool {
   }
 
   #place(element: HTMLElement, position: Triple, normal: Triple | undefined): Mark {
-    const point = new Vector3(...position).sub(new Vector3(...this.bench.stage.mesh.info.centre));
-    const mark: Mark = { element, point, ...(normal && { normal: new Vector3(...normal) }) };
+    const { mesh } = this.bench.stage, point = new Vector3(...position).sub(new Vector3(...mesh.info.centre)).applyMatrix4(mesh.matrixWorld);
+    const mark: Mark = { element, point, ...(normal && { normal: new Vector3(...normal).applyQuaternion(mesh.quaternion) }) };
     this.bench.overlay.add(mark);
     return mark;
   }

@@ -12,7 +12,7 @@ export class OrbitController {
   constructor(private readonly stage: () => Stage) {}
 
   get view(): OrbitView {
-    const { camera, controls } = this.stage().parts, [x, y, z] = this.stage().mesh.info.centre;
+    const { camera, controls } = this.stage().parts, { x, y, z } = this.stage().mesh.presentedCentre;
     const target = controls.target;
     return { ...anglesOf(camera.position.clone().sub(target)), target: [target.x + x, target.y + y, target.z + z] };
   }
@@ -54,7 +54,7 @@ export class OrbitController {
 
   /** Places the camera, within the limits of the orbit controls. */
   #place(view: OrbitView): void {
-    const { camera, controls } = this.stage().parts, [x, y, z] = this.stage().mesh.info.centre;
+    const { camera, controls } = this.stage().parts, { x, y, z } = this.stage().mesh.presentedCentre;
     controls.target.set(view.target[0] - x, view.target[1] - y, view.target[2] - z);
     const { x: right, y: up, z: front } = offsetOf({ ...view, elevation: Math.max(-89.9, Math.min(89.9, view.elevation)) });
     camera.position.set(right, up, front).add(controls.target);

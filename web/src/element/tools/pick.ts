@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the point of the surface that is visible at a pixel, from the depth that the GPU renders
-// there. Parts cut away by a section are therefore not picked.
+// at this pixel. Parts cut away by a section are therefore not picked.
 import { DoubleSide, MeshDepthMaterial, RGBADepthPacking, Vector3, WebGLRenderTarget } from "three";
 import type { Stage } from "../stage.ts";
 

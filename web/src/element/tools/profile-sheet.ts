@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the profile along a cut, and saves it as CSV and SVG. The code that computes it is loaded when it is first used.
+// Shows the profile along a cut, and saves it as CSV and SVG. The code that computes profiles is loaded at its first
+// use.
 import type { Cut } from "../profile/profile.ts";
 import type { Bench } from "./bench.ts";
 import { make, save } from "./dom.ts";
@@ -28,8 +29,8 @@ export class ProfileSheet {
     // Ignores an error. The length of the cut is then shown alone.
     const code = await import("../profile/profile.ts").catch(() => undefined);
     if (!code || cut !== this.#cut) return;
-    const { stage, texts } = this.bench, { geometry, info } = stage.mesh;
-    const samples = code.profileOf(stage.parts.renderer, geometry, cut, unpackDepth);
+    const { stage, texts } = this.bench, { mesh } = stage, { info } = mesh;
+    const samples = code.profileOf(stage.parts.renderer, mesh, cut, unpackDepth);
     this.#files = { CSV: code.csvOf(samples, info.unit), SVG: code.svgOf(samples, (value) => texts.measured(value, info.unit)) };
     const { documentElement } = new DOMParser().parseFromString(this.#files.SVG, "image/svg+xml");
     this.#drawing.replaceChildren(documentElement);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets the visitor save a picture, share a link to what is shown, and save the model at a level of detail.
+// Lets the visitor save a picture, share a link to what is shown (also as a QR code), and save the model at a level of detail.
 import type { Bench, Tool } from "./bench.ts";
 import { make, save } from "./dom.ts";
 import { apiOf, exportOf, kFormats, linkTo, settingIn, type ExportDetail } from "./links.ts";
+import { QrSheet } from "./qr-sheet.ts";
 import { formatView, parseView } from "./view.ts";
 
 type DownloadLevel = "shown" | "highest" | "lowest";
@@ -11,18 +12,20 @@ export class Save implements Tool {
   readonly content: HTMLElement;
   readonly #link: HTMLInputElement;
   readonly #said = make("p", { class: "hint" });
+  readonly #qr: QrSheet;
   readonly #download: HTMLElement;
   readonly #format: HTMLSelectElement;
   readonly #level: HTMLSelectElement;
   readonly #file: HTMLAnchorElement;
 
-  /** Links keep the settings of the tools `kept`, under their names. */
+  /** A shared link contains the settings of the tools `kept`. The key of each tool is the setting's name in the link. */
   constructor(private readonly bench: Bench, private readonly kept: Record<string, Tool>) {
     const { texts } = bench;
     const picture = make("button", { type: "button", class: "framed", onclick: () => void this.#picture() }, texts.screenshot);
     this.#link = make("input", { readonly: true, name: "link", "aria-label": texts.link, onfocus: () => this.#link.select() });
     const copy = make("button", { type: "button", class: "framed", onclick: () => void this.#copy() }, texts.copy);
-    const share = make("button", { type: "button", class: "framed", hidden: !("share" in navigator), onclick: () => this.#share() }, texts.share);
+    const share = make("button", { type: "button", class: "framed", hidden: !("share" in navigator), onclick: () => void this.#share() }, texts.share);
+    this.#qr = new QrSheet(bench);
     const change = () => this.#aim();
     const formats = kFormats.map((name) => option(name, name.toUpperCase()));
     this.#format = make("select", { name: "format", "aria-label": texts.format, onchange: change }, ...formats);
@@ -30,7 +33,7 @@ export class Save implements Tool {
     this.#file = make("a", { class: "framed", download: "" }, texts.download);
     this.#download = make("div", { class: "row" }, this.#level, this.#format);
     this.content = make("div", {}, picture, make("p", { class: "label" }, texts.link), make("div", { class: "row" }, this.#link, copy),
-      share, this.#said, make("p", { class: "label" }, texts.download), this.#download, this.#file);
+      make("div", { class: "row equal" }, share, this.#qr.button), this.#said, this.#qr.content, make("p", { class: "label" }, texts.download), this.#download, this.#file);
   }
 
   attach(until: AbortSignal): void {
@@ -49,7 +52,7 @@ export class Save implements Tool {
     if (triangles > 0) bench.page.choose(triangles);
   }
 
-  /** The settings that a link keeps. The level of detail is kept only if the visitor has chosen it. */
+  /** The settings that a shared link contains. It contains the level of detail only if the visitor has chosen one. */
   get #settings(): Record<string, string> {
     const { orbit, page, triangles } = this.bench;
     const kept = Object.entries(this.kept).map(([name, tool]) => [name, tool.setting ?? ""]);
@@ -63,7 +66,7 @@ export class Save implements Tool {
   refresh(): void {
     const { host, stage, texts, triangles } = this.bench, { levels } = stage.mesh.info;
     const coarse = levels[0]?.faces ?? 0, fine = levels.at(-1)?.faces ?? 0;
-    this.#link.value = linkTo(location.href, host.id, this.#settings);
+    this.#qr.link = this.#link.value = linkTo(location.href, host.id, this.#settings);
     this.#said.textContent = "";
     const chosen = this.#level.value;
     this.#level.replaceChildren(
@@ -100,9 +103,14 @@ export class Save implements Tool {
     if (!isCopied) this.#link.focus();
   }
 
-  /** Opens the system's dialog for sharing. Ignores an error, because closing the dialog is one. */
-  #share(): void {
-    navigator.share({ title: this.bench.host.getAttribute("alt") ?? "", url: this.#link.value }).catch(() => undefined);
+  /** Opens the system's dialog for sharing. If the browser refuses, for example in a frame, copies the link. */
+  async #share(): Promise<void> {
+    try {
+      await navigator.share({ title: this.bench.host.getAttribute("alt") ?? "", url: this.#link.value });
+    } catch (error) {
+      // An AbortError says that the visitor has closed the dialog.
+      if ((error as Error).name !== "AbortError") await this.#copy();
+    }
   }
 
   get #name(): string {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bar of a round length. It holds for the depth of the point that the camera looks at, because nearer parts look larger.
+// A scale bar of a round length. It is correct only at the depth of the point that the camera looks at, because nearer
+// parts look larger.
 import type { PerspectiveCamera, Vector3 } from "three";
 import type { Bench } from "./bench.ts";
 import { make } from "./dom.ts";
 
 const kLongest = 160; // greatest length of the bar, in CSS pixels
 
-/** Returns the longest of 1, 2 and 5 times a power of ten that is at most `most`, which is positive. */
+/**
+ * Returns the largest number that is at most `most` and is 1, 2 or 5 times a power of ten. `most` must
+ * be positive.
+ */
 export function roundLength(most: number): number {
   const power = 10 ** Math.floor(Math.log10(most));
   return ([5, 2].find((digit) => digit * power <= most) ?? 1) * power;

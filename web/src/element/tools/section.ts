@@ -78,7 +78,7 @@ export class Section implements Tool {
 
   #cut(): void {
     const { stage, texts } = this.bench, on = box(this.#switch).checked;
-    const fraction = Number(this.#slider.value) / kSteps, bounds = stage.mesh.geometry.boundingBox;
+    const fraction = Number(this.#slider.value) / kSteps, bounds = stage.mesh.presentedBox;
     this.#slider.setAttribute("aria-valuetext", texts.percent(fraction));
     stage.parts.renderer.clippingPlanes = on && bounds ? [cuttingPlane(bounds, this.#axis, fraction, box(this.#flip).checked)] : [];
     patchColour(stage.mesh.material, "inside", on ? `if (!gl_FrontFacing) gl_FragColor = vec4(${kTone.toArray().map((part) => part.toFixed(4))}, 1.0);` : "");

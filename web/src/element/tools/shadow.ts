@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A contact shadow below the model. The page chooses it with the attribute shadow-intensity, as in model-viewer; the visitor can
-// switch it. Its code is loaded when it is first used.
+// switch it on and off. The shadow's code is loaded at its first use.
 import type { ContactShadow } from "../shadow/contact-shadow.ts";
 import type { Stage } from "../stage.ts";
 import type { Bench, Tool } from "./bench.ts";
@@ -63,7 +63,7 @@ export class Shadow implements Tool {
   }
 
   async #load(stage: Stage): Promise<void> {
-    const { ContactShadow } = await import("../shadow/contact-shadow.ts"), shadow = new ContactShadow(stage.parts.renderer, stage.mesh.geometry);
+    const { ContactShadow } = await import("../shadow/contact-shadow.ts"), shadow = new ContactShadow(stage.parts.renderer, stage.mesh);
     await shadow.compile();
     if (this.#shadow || stage !== this.bench.stage) shadow.dispose();
     else this.#shadow = shadow;

@@ -15,7 +15,7 @@ export class Sheets {
   constructor(private readonly bar: HTMLElement, private readonly closeLabel: string) {
     bar.addEventListener("keydown", (event) => {
       if (event.key !== "Escape" || !this.#open) return;
-      event.stopPropagation(); // otherwise Escape would also close a dialog of the page
+      event.stopPropagation(); // without this, Escape would also close a dialog of the page
       const { button } = this.#open;
       this.close();
       button.focus();

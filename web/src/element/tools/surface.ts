@@ -39,22 +39,22 @@ export class SurfaceStyle implements Tool {
 
   #apply(name: Toggle, on: boolean): void {
     const { stage } = this.bench;
-    const { material, geometry } = stage.mesh;
+    const { material } = stage.mesh;
     if (name === "form") stage.form = on;
-    if (name === "curvature") patchColour(material, name, on ? curvatureShading(geometry.boundingSphere?.radius ?? 1) : "");
+    if (name === "curvature") patchColour(material, name, on ? curvatureShading(stage.radius) : "");
     if (name === "facets") Object.assign(material, { flatShading: on, needsUpdate: true });
     if (name === "wireframe") this.#wire(on);
     void stage.draw();
   }
 
   #wire(on: boolean): void {
-    const { mesh, parts: { scene } } = this.bench.stage;
+    const { mesh } = this.bench.stage;
     this.#removeWires();
     Object.assign(mesh.material, { polygonOffset: on, polygonOffsetFactor: Number(on), polygonOffsetUnits: Number(on) });
     if (!on) return;
     this.#wires = new Mesh(mesh.geometry, new MeshBasicMaterial({ color: 0x1f4e5f, wireframe: true, transparent: true, opacity: 0.45 }));
     mesh.morph(this.#wires.material);
-    scene.add(this.#wires);
+    mesh.add(this.#wires); // the wires follow the mesh, for example into the visitor's room
   }
 
   #removeWires(): void {

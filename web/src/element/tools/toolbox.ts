@@ -15,6 +15,8 @@ import { Measure } from "./measure.ts";
 import { Notes } from "./notes.ts";
 import { OrbitController } from "./orbit.ts";
 import { Overlay } from "./overlay.ts";
+import { Presenter } from "./presenter.ts";
+import { Reality } from "./reality.ts";
 import { Save } from "./save.ts";
 import { Shadow } from "./shadow.ts";
 import { Section } from "./section.ts";
@@ -32,6 +34,7 @@ export class Toolbox implements Bench {
   readonly #bar: HTMLElement;
   readonly #sheets: Sheets;
   readonly #tools: Tool[];
+  presenter!: Presenter; // set by #fill()
   readonly #visits = new Visits(this);
   readonly #made: HTMLElement[];
   #stage: Stage | undefined;
@@ -95,11 +98,12 @@ export class Toolbox implements Bench {
     this.#bar.replaceWith(this.#bar.cloneNode());
   }
 
-  /** Adds the buttons to the toolbar, the most needed ones first. Returns the tools. */
+  /** Adds the buttons to the toolbar, the most needed buttons first. Returns the tools. */
   #fill(): Tool[] {
     const { texts } = this, sheets = this.#sheets;
     const light = new Light(this), shadow = new Shadow(this), surface = new SurfaceStyle(this), section = new Section(this);
-    const measure = new Measure(this), notes = new Notes(this);
+    const measure = new Measure(this), notes = new Notes(this), reality = new Reality(this);
+    this.presenter = new Presenter(this, light);
     const save = new Save(this, { light, shadow, surface, section, note: notes });
     sheets.action("reset", texts.reset, () => this.page.frame());
     sheets.add("light", texts.light, make("div", {}, light.content, shadow.content));
@@ -110,10 +114,13 @@ export class Toolbox implements Bench {
     reader.hidden = true;
     notes.onFilled = (any) => (reader.hidden = !any);
     notes.onChosen = () => reader.ariaExpanded === "false" && reader.click();
+    const room = sheets.add("ar", texts.ar, reality.content, (open) => open && void reality.open());
+    room.hidden = true;
+    reality.onKnown = (isUsable) => (room.hidden = !isUsable);
     sheets.add("save", texts.save, save.content, (open) => open && save.refresh());
     const full = sheets.action("fullScreen", texts.fullScreen, () => void this.#fillScreen());
     full.hidden = !document.fullscreenEnabled;
-    return [light, shadow, surface, section, measure, notes, save];
+    return [light, shadow, surface, section, measure, notes, reality, save];
   }
 
   #fillScreen(): Promise<void> {

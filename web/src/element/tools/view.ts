@@ -5,9 +5,9 @@
 export interface OrbitView {
   azimuth: number;
   elevation: number;
-  /** Distance from the target, in model units. */
+  /** Distance from the target, in the unit of the presented model. */
   distance: number;
-  /** The point that the camera looks at, in model coordinates. */
+  /** The point that the camera looks at, in presented coordinates. */
   target: [number, number, number];
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports to the model's daemon that the model was visited: how long it was visible, and the finest level shown. A report has
-// nothing else. No report is sent for a .pmesh file, for a model that needs a token, if the daemon does not count visits, or if the
-// browser says that the visitor does not want to be tracked.
+// Reports to the model's daemon that the model was visited: how long it was visible, and the finest level shown. A report contains
+// nothing else. No report is sent for a .pmesh file or for a model that needs a token. No report is sent either if the daemon does
+// not count visits, or if the browser says that the visitor does not want to be tracked.
 import type { Stage } from "../stage.ts";
 import type { Bench, Tool } from "./bench.ts";
 import { apiOf } from "./links.ts";
@@ -11,7 +11,7 @@ const kMaxSeconds = 86_400;
 
 /** One visit: the time in which the model was visible, and the finest level shown. Times are in milliseconds. */
 export class Visit {
-  #visible = 0; // time that no report has stated yet
+  #visible = 0; // visible time that has not been reported yet
   #since: number | undefined; // start of the current time in view
   #wasSeen = false;
   #level = 0;
@@ -77,7 +77,9 @@ export class Visits implements Tool {
     void countsVisits(api, until).then((yes) => yes && !until.aborted && (this.#api = api)).catch(() => undefined);
   }
 
-  /** Ends the visit, because a kiosk had no input for some time. The next input begins another one. */
+  /**
+   * Ends the visit, because a kiosk had no input for some time. The next input begins another visit.
+   */
   leave(): void {
     if (!this.#stage) return;
     this.#send();
@@ -100,7 +102,10 @@ export class Visits implements Tool {
     this.#visit?.reach(Math.max(levels.filter(({ faces }) => faces <= triangles).length - 1, 0));
   }
 
-  /** A hidden page may be closed without another event, so it reports at once. */
+  /**
+   * Updates the visit when the page or the model becomes visible or hidden. A hidden page may be
+   * closed without another event, so its visit is reported at once.
+   */
   #look(): void {
     const isHidden = document.visibilityState === "hidden";
     this.#visit?.show(this.#isInView && !isHidden && !this.#isAway, performance.now());

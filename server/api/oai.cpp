@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Serves OAI-PMH 2.0. All callers see the published models only, whether or not they have a token.
+#include "server/records/oai.h"
+
+#include <chrono>
+
+#include "server/api/published.h"
+#include "server/api/routes.h"
+#include "server/messages/body_sink.h"
+
+namespace vitrine::server {
+namespace {
+
+// Largest body of a POST request in bytes. Arguments are short.
+constexpr std::size_t kMostFormBytes = 8 * 1024;
+constexpr std::string_view kForm = "application/x-www-form-urlencoded";
+
+OaiSite site_of(const Request& request, const Services& services) {
+  return {.origin = origin_of(request, services),
+          .contact = services.settings.get().contact,
+          .now = std::chrono::duration_cast<std::chrono::seconds>(
+                     std::chrono::system_clock::now().time_since_epoch())
+                     .count()};
+}
+
+Response oai_answer(std::string_view arguments, const OaiSite& site, std::string_view request_id,
+                    Services& services) {
+  const auto query = Query::parse(arguments);
+  if (!query) return problem(400, "the arguments are malformed", request_id);
+  auto text = answer_oai(*query, site, services.catalogue);
+  if (!text) return internal_error(text.error(), request_id, services);
+  Response response;
+  response.type = "text/xml; charset=utf-8";  // the protocol requires text/xml
+  response.body = std::move(*text);
+  return response;
+}
+
+// Receives the arguments of a POST request and answers it.
+class FormSink final : public BodySink {
+ public:
+  FormSink(OaiSite site, std::string_view request_id, Services& services)
+      : site_(std::move(site)), request_id_(request_id), services_(services) {}
+
+  std::optional<Response> take(std::span<const std::uint8_t> piece) override {
+    form_.append(piece.begin(), piece.end());
+    if (form_.size() <= kMostFormBytes) return std::nullopt;
+    return problem(413, fmt::format("send at most {} bytes", kMostFormBytes), request_id_);
+  }
+
+  Response finish() override { return oai_answer(form_, site_, request_id_, services_); }
+
+ private:
+  const OaiSite site_;
+  const std::string request_id_;
+  Services& services_;
+  std::string form_;
+};
+
+}  // namespace
+
+static Response harvest(const Request& request, Services& services) {
+  return oai_answer(request.query, site_of(request, services), request.id, services);
+}
+
+static Response harvest_by_post(const Request& request, Services& services) {
+  const auto type = request.header[beast::http::field::content_type];
+  const auto media_type = type.substr(0, type.find_first_of("; \t"));
+  if (!beast::iequals(media_type, {kForm.data(), kForm.size()}))
+    return problem(415, fmt::format("send the arguments as {}", kForm), request.id);
+  Response response;
+  response.sink = std::make_shared<FormSink>(site_of(request, services), request.id, services);
+  return response;
+}
+
+static constexpr std::string_view kOaiComponents = R"json({
+"parameters": {
+  "oaiVerb": {"name": "verb", "in": "query", "description": "The request of OAI-PMH",
+    "schema": {"enum": ["Identify", "ListMetadataFormats", "ListSets", "GetRecord", "ListIdentifiers", "ListRecords"]}},
+  "oaiIdentifier": {"name": "identifier", "in": "query", "description": "A record: `oai:HOST:ID`", "schema": {"type": "string"}},
+  "metadataPrefix": {"name": "metadataPrefix", "in": "query", "description": "The format of records",
+    "schema": {"enum": ["oai_dc", "edm", "lido"]}},
+  "oaiFrom": {"name": "from", "in": "query", "description": "The first day or second, in UTC, of a record's last change", "schema": {"type": "string"}},
+  "oaiUntil": {"name": "until", "in": "query", "description": "The last day or second, in UTC, of a record's last change", "schema": {"type": "string"}},
+  "oaiSet": {"name": "set", "in": "query", "description": "The setSpec of a collection", "schema": {"type": "string"}},
+  "resumptionToken": {"name": "resumptionToken", "in": "query", "description": "The token of the previous page; the only argument besides the verb",
+    "schema": {"type": "string"}}
+}
+})json";
+
+static constexpr ApiRoute kOaiRoutes[] = {
+    {.method = Method::kGet,
+     .path = "/api/v1/oai",
+     .handler = harvest,
+     .executor = Executor::kWorker,
+     .doc = {.id = "harvest",
+             .summary = "Answers a request of OAI-PMH 2.0: the records of all published models, in "
+                        "Dublin Core, EDM and LIDO. Errors of the protocol have status 200.",
+             .parameters = "oaiVerb oaiIdentifier metadataPrefix oaiFrom oaiUntil oaiSet "
+                           "resumptionToken",
+             .response = "text/xml"}},
+    {.method = Method::kPost,
+     .path = "/api/v1/oai",
+     .handler = harvest_by_post,
+     .executor = Executor::kWorker,
+     .reads_body = false,
+     .doc = {.id = "harvestByPost",
+             .summary = "Answers a request of OAI-PMH 2.0 whose arguments are in the body.",
+             .request = "application/x-www-form-urlencoded",
+             .response = "text/xml"}},
+};
+
+static constexpr ApiTag kOaiTags[] = {
+    {.name = "oai",
+     .description = "Records of all published models for other catalogues, by OAI-PMH 2.0."}};
+
+const ApiNoun kOai = {.routes = kOaiRoutes, .components = kOaiComponents, .tags = kOaiTags};
+
+}  // namespace vitrine::server
