@@ -68,8 +68,9 @@ test("requests everything for the first picture together, as soon as the viewer'
 
 test("the page asks for the model before the worker runs", { timeout: 120_000 }, async () => {
   // Replaces the page's Worker by a class whose workers never start.
-  const { viewer, asked, until } = await open([], () => (window.Worker = class { postMessage() {} terminate() {} }));
-  await until(() => asked.includes("model.pmesh"));
+  host.asked = [];
+  const { viewer, until } = await open([], () => (window.Worker = class { postMessage() {} terminate() {} }));
+  await until(() => host.asked.some((line) => line.includes("model.pmesh")));
   await viewer.page.context().close();
 });
 

@@ -33,7 +33,7 @@ TEST(ExportKind, TheStemLacksFolderAndExtensions) {
 TEST(ExportKind, TheTextsListTheZips) {
   EXPECT_EQ(std::string_view(kZipSuffixes), ".ply.zip, .obj.zip, .wrl.zip");
   EXPECT_EQ(std::string_view(kZipExtensions), "ply.zip, obj.zip or wrl.zip");
-  EXPECT_EQ(std::string_view(kZipChoice), "ply.zip,obj.zip,wrl.zip");
+  EXPECT_EQ(std::string_view(kZipChoice), "ply.zip|obj.zip|wrl.zip");
 }
 
 }  // namespace
