@@ -63,7 +63,7 @@ Route bind(const ApiRoute& route, Services& services) {
                           &services](const Request& request) { return handler(request, services); },
               .executor = route.executor,
               .role = route.role,
-              .reads_body = route.reads_body,
+              .body = route.body,
               .is_urgent = route.is_urgent};
   if (route.quick != nullptr) {
     bound.quick = [quick = route.quick, &services](const Request& request) {

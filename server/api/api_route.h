@@ -41,7 +41,7 @@ struct ApiRoute {
   Executor executor = Executor::kInline;
   Role role = Role::kNone;
   ApiQuickHandler quick = nullptr;
-  bool reads_body = true;
+  BodyKind body = BodyKind::kJson;
   bool is_urgent = false;
   ApiOpeningFinder opens = nullptr;
   RouteDoc doc = {};

@@ -6,14 +6,9 @@
 
 #include "server/api/published.h"
 #include "server/api/routes.h"
-#include "server/messages/body_sink.h"
 
 namespace vitrine::server {
 namespace {
-
-// Largest body of a POST request in bytes. Arguments are short.
-constexpr std::size_t kMostFormBytes = 8 * 1024;
-constexpr std::string_view kForm = "application/x-www-form-urlencoded";
 
 OaiSite site_of(const Request& request, const Services& services) {
   return {.origin = origin_of(request, services),
@@ -35,27 +30,6 @@ Response oai_answer(std::string_view arguments, const OaiSite& site, std::string
   return response;
 }
 
-// Receives the arguments of a POST request and answers it.
-class FormSink final : public BodySink {
- public:
-  FormSink(OaiSite site, std::string_view request_id, Services& services)
-      : site_(std::move(site)), request_id_(request_id), services_(services) {}
-
-  std::optional<Response> take(std::span<const std::uint8_t> piece) override {
-    form_.append(piece.begin(), piece.end());
-    if (form_.size() <= kMostFormBytes) return std::nullopt;
-    return problem(413, fmt::format("send at most {} bytes", kMostFormBytes), request_id_);
-  }
-
-  Response finish() override { return oai_answer(form_, site_, request_id_, services_); }
-
- private:
-  const OaiSite site_;
-  const std::string request_id_;
-  Services& services_;
-  std::string form_;
-};
-
 }  // namespace
 
 static Response harvest(const Request& request, Services& services) {
@@ -63,13 +37,7 @@ static Response harvest(const Request& request, Services& services) {
 }
 
 static Response harvest_by_post(const Request& request, Services& services) {
-  const auto type = request.header[beast::http::field::content_type];
-  const auto media_type = type.substr(0, type.find_first_of("; \t"));
-  if (!beast::iequals(media_type, {kForm.data(), kForm.size()}))
-    return problem(415, fmt::format("send the arguments as {}", kForm), request.id);
-  Response response;
-  response.sink = std::make_shared<FormSink>(site_of(request, services), request.id, services);
-  return response;
+  return oai_answer(request.form, site_of(request, services), request.id, services);
 }
 
 static constexpr std::string_view kOaiComponents = R"json({
@@ -102,7 +70,7 @@ static constexpr ApiRoute kOaiRoutes[] = {
      .path = "/api/v1/oai",
      .handler = harvest_by_post,
      .executor = Executor::kWorker,
-     .reads_body = false,
+     .body = BodyKind::kForm,
      .doc = {.id = "harvestByPost",
              .summary = "Answers a request of OAI-PMH 2.0 whose arguments are in the body.",
              .request = "application/x-www-form-urlencoded",

@@ -208,7 +208,7 @@ static constexpr ApiRoute kScannerRoutes[] = {
      .handler = stop_scanner,
      .executor = Executor::kWorker,
      .role = Role::kOperator,
-     .reads_body = false,
+     .body = BodyKind::kPieces,
      .is_urgent = true,
      .doc = {.id = "stopScanner",
              .summary = "Emergency stop: switches laser and motor off at once. The request body "

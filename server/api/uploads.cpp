@@ -417,7 +417,7 @@ static constexpr ApiRoute kUploadRoutes[] = {
      .handler = create_upload,
      .executor = Executor::kDisk,
      .role = Role::kOperator,
-     .reads_body = false,
+     .body = BodyKind::kPieces,
      .doc = {.id = "createUpload",
              .summary = "Creates a resumable upload (tus 1.0.0). A body of type "
                         "application/offset+octet-stream becomes its first piece.",
@@ -442,7 +442,7 @@ static constexpr ApiRoute kUploadRoutes[] = {
      .handler = append_to_upload,
      .executor = Executor::kDisk,
      .role = Role::kOperator,
-     .reads_body = false,
+     .body = BodyKind::kPieces,
      .doc = {.id = "appendToUpload",
              .summary =
                  "Appends a piece to an upload. The server responds once the piece is on disk.",

@@ -111,8 +111,8 @@ std::string owner_of(const Exchange& exchange) {
   return exchange.caller ? exchange.caller->token.to_string() : network_of(exchange.client.address);
 }
 
-bool takes_json(const Route& route) {
-  return route.reads_body && (route.method == Method::kPost || route.method == Method::kPatch);
+bool takes_body(const Route& route, BodyKind kind) {
+  return route.body == kind && (route.method == Method::kPost || route.method == Method::kPatch);
 }
 
 // If the route can answer from memory, sets the response and returns true.
@@ -193,6 +193,7 @@ asio::awaitable<bool> Dispatcher::answer(RequestParser& parser, Exchange& exchan
                         .parameters = exchange.parameters,
                         .id = exchange.id,
                         .body = exchange.body,
+                        .form = exchange.form,
                         .caller = exchange.caller,
                         .is_encrypted = exchange.client.is_encrypted,
                         .client_address = exchange.client.address,
@@ -206,8 +207,12 @@ asio::awaitable<bool> Dispatcher::answer(RequestParser& parser, Exchange& exchan
     const bool is_authorised = co_await authorise_caller(header, exchange);
     if (!is_authorised || answer_at_once(request, exchange)) co_return true;
   }
-  if (takes_json(route)) {
+  if (takes_body(route, BodyKind::kJson)) {
     const ReadResult read = co_await reader_.read_json(parser, exchange);
+    if (read != ReadResult::kRead) co_return read == ReadResult::kRejected;
+  }
+  if (takes_body(route, BodyKind::kForm)) {
+    const ReadResult read = co_await reader_.read_form(parser, exchange);
     if (read != ReadResult::kRead) co_return read == ReadResult::kRejected;
   }
   co_await handle(request, exchange);

@@ -27,6 +27,7 @@ struct Exchange {
   const Route* route = nullptr;
   std::optional<Caller> caller;
   nlohmann::json body = nlohmann::json::object();
+  std::string form;             // see Request::form
   bool is_rated = false;        // whether the request has been counted towards a request rate
   bool is_beyond_rate = false;  // whether the response is 429 because of a request rate
   bool is_body_read = false;

@@ -17,6 +17,11 @@ constexpr std::size_t kBodyPiece = 64 * 1024;
 // Size in bytes of the largest buffer that an idle connection keeps.
 constexpr std::size_t kIdleBuffer = 4 * 1024;
 
+std::string_view media_type_of(const RequestHeader& header) {
+  const auto type = header[field::content_type];
+  return {type.data(), type.size()};
+}
+
 unsigned status_of(const boost::system::error_code& error) {
   if (error == beast::http::error::header_limit) return 431;
   if (error == beast::http::error::body_limit) return 413;
@@ -53,14 +58,9 @@ asio::awaitable<ReadResult> RequestReader::read_header(RequestParser& parser, Ex
 }
 
 asio::awaitable<ReadResult> RequestReader::read_json(RequestParser& parser, Exchange& exchange) {
-  if (!parser.is_done()) {
-    connection_.expires_after(server_.pace().timeout);
-    const ReadResult read = co_await read_text(parser, exchange);
-    if (read != ReadResult::kRead) co_return read;
-  }
-  const auto& request = parser.get();
-  const auto type = request[field::content_type];
-  auto body = parse_body({type.data(), type.size()}, request.body());
+  const ReadResult read = co_await read_text(parser, exchange);
+  if (read != ReadResult::kRead) co_return read;
+  auto body = parse_body(media_type_of(parser.get()), parser.get().body());
   if (!body) {
     exchange.response = problem(body.error().status, body.error().detail, exchange.id);
     co_return ReadResult::kRejected;
@@ -69,7 +69,20 @@ asio::awaitable<ReadResult> RequestReader::read_json(RequestParser& parser, Exch
   co_return ReadResult::kRead;
 }
 
+asio::awaitable<ReadResult> RequestReader::read_form(RequestParser& parser, Exchange& exchange) {
+  const ReadResult read = co_await read_text(parser, exchange);
+  if (read != ReadResult::kRead) co_return read;
+  if (const auto fault = form_fault(media_type_of(parser.get()), parser.get().body())) {
+    exchange.response = problem(fault->status, fault->detail, exchange.id);
+    co_return ReadResult::kRejected;
+  }
+  exchange.form = std::move(parser.get().body());
+  co_return ReadResult::kRead;
+}
+
 asio::awaitable<ReadResult> RequestReader::read_text(RequestParser& parser, Exchange& exchange) {
+  if (parser.is_done()) co_return ReadResult::kRead;
+  connection_.expires_after(server_.pace().timeout);
   if (parser.content_length().value_or(0) > kMaxRequestBody) {
     exchange.reject(413, "the body is too large");
     co_return ReadResult::kRejected;

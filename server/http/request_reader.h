@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads requests from a connection: headers, JSON bodies, and large bodies piece by piece.
+// Reads requests from a connection: headers, JSON bodies, forms, and large bodies piece by piece.
 #pragma once
 
 #include <functional>
@@ -31,6 +31,9 @@ class RequestReader {
 
   // Reads the body as JSON into exchange.body.
   asio::awaitable<ReadResult> read_json(RequestParser& parser, Exchange& exchange);
+
+  // Reads the body as a form into exchange.form.
+  asio::awaitable<ReadResult> read_form(RequestParser& parser, Exchange& exchange);
 
   // Passes the body to `consume` piece by piece. The parser keeps the request's header.
   asio::awaitable<ReadResult> read_pieces(RequestParser& parser, Exchange& exchange,

@@ -8,12 +8,17 @@
 namespace vitrine::server {
 namespace {
 
-// Whether the media type is JSON, or a JSON merge patch (RFC 7396), which a PATCH may send. Ignores
-// parameters such as "; charset=utf-8", because JSON is always UTF-8.
-bool is_json(std::string_view media_type) {
+// Returns the media type without parameters such as "; charset=utf-8". All bodies are UTF-8.
+std::string_view without_parameters(std::string_view media_type) {
   std::string_view name = media_type.substr(0, media_type.find(';'));
   while (name.ends_with(' ') || name.ends_with('\t'))
     name.remove_suffix(1);
+  return name;
+}
+
+// Whether the media type is JSON, or a JSON merge patch (RFC 7396), which a PATCH may send.
+bool is_json(std::string_view media_type) {
+  const auto name = without_parameters(media_type);
   return beast::iequals(name, "application/json") ||
          beast::iequals(name, "application/merge-patch+json");
 }
@@ -55,6 +60,13 @@ tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
   if (watch.has_repeated_name()) return tl::unexpected(BodyFault{400, "the body has a name twice"});
   if (!json.is_object()) return tl::unexpected(BodyFault{400, "the body is not a JSON object"});
   return json;
+}
+
+std::optional<BodyFault> form_fault(std::string_view media_type, std::string_view text) {
+  if (text.size() > kMaxForm) return BodyFault{413, "the form is larger than 8 KB"};
+  if (!beast::iequals(without_parameters(media_type), "application/x-www-form-urlencoded"))
+    return BodyFault{415, "send the body as application/x-www-form-urlencoded"};
+  return std::nullopt;
 }
 
 }  // namespace vitrine::server

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses the JSON body of a request within limits on size and depth.
+// Checks the JSON or form in the body of a request: its media type, size and depth.
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <tl/expected.hpp>
 
@@ -10,6 +11,7 @@ namespace vitrine::server {
 
 inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // largest size of a body, in bytes
 inline constexpr int kMaxBodyDepth = 16;                   // levels of nested arrays and objects
+inline constexpr std::size_t kMaxForm = 8 * 1024;          // largest size of a form, in bytes
 
 struct BodyFault {
   unsigned status;  // HTTP status: 400, 413 or 415
@@ -21,5 +23,9 @@ struct BodyFault {
 // object, if it is nested too deep, or if a name occurs twice in an object.
 tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
                                                    std::string_view text);
+
+// Returns what is wrong with a form `text`, or nullopt: it is too large, or the media type is not
+// application/x-www-form-urlencoded.
+std::optional<BodyFault> form_fault(std::string_view media_type, std::string_view text);
 
 }  // namespace vitrine::server

@@ -50,7 +50,8 @@ struct Request {
   std::string_view query;  // query as sent
   PathParameters parameters;
   std::string_view id;
-  const nlohmann::json& body;  // a JSON object; empty if the request has no body
+  const nlohmann::json& body;  // a JSON object; empty if the request has no JSON body
+  const std::string& form;     // the body of a route that takes a form, as sent
   // The owner of the request's token, or nullopt if there is no token or it was not checked. If the
   // route needs a role, its `handler` is called only for a caller that has the role.
   const std::optional<Caller>& caller;
@@ -86,6 +87,13 @@ enum class Executor : std::uint8_t {
 // answers OPTIONS requests with the methods of the path.
 enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kOptions };
 
+// What the server does with the body of a POST or PATCH request.
+enum class BodyKind : std::uint8_t {
+  kJson,    // parses it as JSON into Request::body
+  kForm,    // reads it into Request::form, encoded like a query
+  kPieces,  // passes it to Response::sink
+};
+
 struct Route {
   Method method = Method::kGet;
   // A template of literals and `{name}` parameters; `{rest}` at the end matches the rest of the
@@ -101,9 +109,7 @@ struct Route {
   OpeningFinder opens = {};
   Executor executor = Executor::kInline;
   Role role = Role::kNone;  // the lowest role that a caller needs; kNone: no token is needed
-  // For POST and PATCH: true if the server parses the body as JSON, false if Response::sink
-  // receives the body.
-  bool reads_body = true;
+  BodyKind body = BodyKind::kJson;
   // Whether this is the route of an emergency stop, which must not be delayed by rate limits or
   // queues.
   bool is_urgent = false;

@@ -105,7 +105,7 @@ constexpr ApiRoute kCrowdedRoutes[] = {
      .path = "/pour",
      .handler = pour_slowly,
      .executor = Executor::kDisk,
-     .reads_body = false},
+     .body = BodyKind::kPieces},
     {.method = Method::kGet, .path = "/quick", .handler = at_once, .executor = Executor::kInline},
     {.method = Method::kPost, .path = "/quick", .handler = at_once, .executor = Executor::kWorker},
     {.method = Method::kPost,

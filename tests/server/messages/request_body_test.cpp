@@ -59,5 +59,13 @@ TEST(RequestBody, HasAMediaTypeAndABound) {
   EXPECT_EQ(status_of("{} " + padding), 413u);
 }
 
+TEST(RequestBody, AFormHasItsOwnMediaTypeAndBound) {
+  constexpr std::string_view kForm = "Application/X-WWW-Form-Urlencoded ; charset=utf-8";
+  EXPECT_FALSE(form_fault(kForm, std::string(kMaxForm, 'a')));
+  EXPECT_EQ(form_fault(kForm, std::string(kMaxForm + 1, 'a'))->status, 413u);
+  for (const char* other : {"", "application/json", "application/x-www-form-urlencodedX"})
+    EXPECT_EQ(form_fault(other, "verb=Identify")->status, 415u) << other;
+}
+
 }  // namespace
 }  // namespace vitrine::server
