@@ -87,7 +87,7 @@ enum class Executor : std::uint8_t {
 // answers OPTIONS requests with the methods of the path.
 enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kOptions };
 
-// What the server does with the body of a POST or PATCH request.
+// How the server treats the body of a POST or PATCH request.
 enum class BodyKind : std::uint8_t {
   kJson,    // parses it as JSON into Request::body
   kForm,    // reads it into Request::form, encoded like a query
