@@ -20,6 +20,7 @@ namespace {
 std::shared_ptr<EventSource> events_of(const JobId& job, Services& services) {
   const RequestHeader header{};
   const nlohmann::json body;
+  const std::string form;
   const std::optional<Caller> caller = Caller{};
   const std::string id = job.to_string();
   PathParameters parameters;
@@ -30,6 +31,7 @@ std::shared_ptr<EventSource> events_of(const JobId& job, Services& services) {
                           .parameters = parameters,
                           .id = {},
                           .body = body,
+                          .form = form,
                           .caller = caller},
                          services)
       .events;

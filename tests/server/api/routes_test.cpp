@@ -25,8 +25,9 @@ Router make_router() {
 Request with(const PathParameters& parameters) {
   static const RequestHeader header;
   static const nlohmann::json body;
+  static const std::string form;
   static const std::optional<Caller> caller;
-  return {.header = header, .parameters = parameters, .body = body, .caller = caller};
+  return {.header = header, .parameters = parameters, .body = body, .form = form, .caller = caller};
 }
 
 // Returns the route template that a path matches, or "" if no template matches.
