@@ -201,7 +201,7 @@ static Response reprocess_scan(const Request& request, Services& services) {
       return invalid(faults, request);
     const auto once = idempotency_key(request);
     if (!once) return once.error();
-    const auto job = services.scans.reprocess(scan.entry, *order, *once);
+    const auto job = services.scans.reprocess(scan.entry, *order, *once, request.caller->token);
     return job ? started(*job) : refused_job(job.error(), request, services);
   });
 }

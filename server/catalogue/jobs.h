@@ -59,8 +59,8 @@ struct JobRecord {
   std::uint64_t fence = 0;
   // Repairs and losses of the build, one line for each kind. Empty if there were none.
   std::string repairs = {};
-  // ID of the token that uploaded the job's file. Daemons that build models serve the jobs of
-  // different owners in turn. Empty for jobs without an upload.
+  // ID of the token that uploaded the job's file, or that ordered to reprocess a scan. Daemons that
+  // build models serve the jobs of different owners in turn. Empty for jobs that use a scanner.
   std::string owner = {};
 
   bool operator==(const JobRecord&) const = default;

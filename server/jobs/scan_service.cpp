@@ -230,7 +230,8 @@ Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
 }
 
 Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOrder& order,
-                                             const std::optional<IdempotencyKey>& key) {
+                                             const std::optional<IdempotencyKey>& key,
+                                             const std::optional<TokenId>& owner) {
   const auto begun = queue_.begun_by(key);
   if (!begun) return tl::unexpected(begun.error());
   if (*begun) return ScanStarted{scan.id, (*begun)->id};
@@ -250,6 +251,7 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
   job.scan = scan.id;
   job.parameters = to_json_text(whole);
   job.webhook = whole.webhook;
+  if (owner) job.owner = owner->to_string();
   const auto added = queue_.add(job, std::nullopt, key);
   if (!added) return tl::unexpected(added.error());
   return ScanStarted{scan.id, added->id};
@@ -310,9 +312,7 @@ Expected<std::optional<ScanInfo>> ScanService::find(const ScanId& id) {
   const auto entry = options_.jobs.find_scan(id);
   if (!entry) return tl::unexpected(entry.error());
   if (!*entry) return std::nullopt;
-  const auto status = with_job(**entry);
-  if (!status) return tl::unexpected(status.error());
-  return *status;
+  return with_job(**entry);
 }
 
 Expected<std::vector<ScanInfo>> ScanService::list(const PageOf<ScanId>& page) {

@@ -86,9 +86,11 @@ class ScanService {
   // Starts a job that makes another model from a scan. The scan must have measured steps, and no
   // other job may use it. If the order needs the scan's pictures, they must have been kept. If
   // visitors may see only some levels of the scan's current model, the new model becomes a draft,
-  // because its levels differ. Does not change the scan's state.
+  // because its levels differ. `owner` is the token that takes turns with other tokens, if known.
+  // Does not change the scan's state.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
-                                  const std::optional<IdempotencyKey>& key);
+                                  const std::optional<IdempotencyKey>& key,
+                                  const std::optional<TokenId>& owner = {});
   // Deletes the measured data of a scan: profiles, points and kept pictures. Keeps the scan's
   // record and its models. No job may use the scan.
   Expected<void> remove_data(const ScanEntry& scan);

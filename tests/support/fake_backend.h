@@ -25,6 +25,7 @@ struct FakeScanner {
   std::function<std::optional<Error>(int step)> before_step;  // called before each step; may block
   std::function<void()> while_opening;  // called at the start of identify(); may block
   std::function<void()> while_turning;  // called by jog() while the table turns; may block
+  std::function<void(const ScanOrder&)> while_rebuilding;  // called by rebuild_mesh(); may block
 
   bool stopped() const { return stops > allowed; }
 
@@ -182,6 +183,7 @@ class FakeBackend final : public ScannerBackend {
 
   Expected<TriangleMesh> rebuild_mesh(const ScanOrder& order,
                                       const std::filesystem::path&) override {
+    if (world_.while_rebuilding) world_.while_rebuilding(order);
     world_.rebuilt = order;
     return torus(40, 20);
   }
