@@ -31,8 +31,9 @@ Expected<BackupReport> back_up(const std::filesystem::path& data,
 
 // Restores a backup into `data`, which must be absent or empty, so that nothing is overwritten.
 // Checks all hashes and restores the catalogue last. The report lists the objects that were damaged
-// when the backup was made. Leaves `data` unchanged on failure. Fails with kBadInput if the file is
-// not a backup or is damaged, and with kIo if a file cannot be read or written.
+// when the backup was made. Leaves `data` unchanged on failure. Fails with kLimit if the disk of
+// `data` has less room than the file needs, with kBadInput if the file is not a backup or is
+// damaged, and with kIo if a file cannot be read or written.
 Expected<BackupReport> restore(const std::filesystem::path& file,
                                const std::filesystem::path& data);
 

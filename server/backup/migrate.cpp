@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/backup/migrate.h"
 
-#include <fmt/core.h>
-
 #include <map>
 
 #include "server/catalogue/copy_catalogue.h"
@@ -22,28 +20,33 @@ Expected<FilesByHash> named_files(Installation& installation, MigrationReport& r
   return files;
 }
 
-Expected<void> copy_file(const ObjectStore& from, ObjectStore& to, const NamedFile& file) {
+// Copies the file if it is intact. Returns its state.
+Expected<ObjectState> copy_file(const ObjectStore& from, ObjectStore& to, const NamedFile& file) {
   const auto object = from.open(file.file);
+  if (!object && object.error().code == ErrorCode::kState) return ObjectState::kDamaged;
   if (!object) return tl::unexpected(object.error());
-  if (*object == nullptr) {
-    return fail(ErrorCode::kState, fmt::format("model {} has lost its file; publish it again, or "
-                                               "delete it",
-                                               file.model.to_string()));
-  }
+  if (*object == nullptr) return ObjectState::kMissing;
   const auto bytes = (*object)->read(0, (*object)->size());
   if (!bytes) return tl::unexpected(bytes.error());
   const auto put = to.put(file.file, *bytes);
-  return put ? Expected<void>() : tl::unexpected(put.error());
+  return put ? Expected<ObjectState>(ObjectState::kIntact) : tl::unexpected(put.error());
 }
 
-// Copies the files that are not in `done` yet, and adds them to `done`.
+// Copies the files that are not in `done` yet, and adds them to `done`. Lists files that are not
+// intact in the report.
 Expected<void> copy_files(Installation& from, Installation& to, MigrationReport& report,
                           FilesByHash& done, const MigrationProgress& progress) {
   const auto files = named_files(from, report);
   if (!files) return tl::unexpected(files.error());
+  report.damaged.clear();
   for (const auto& [name, file] : *files) {
     if (done.contains(name)) continue;
-    if (auto copied = copy_file(*from.store, *to.store, file); !copied) return copied;
+    const auto state = copy_file(*from.store, *to.store, file);
+    if (!state) return tl::unexpected(state.error());
+    if (*state != ObjectState::kIntact) {
+      report.damaged.push_back({file, *state});
+      continue;
+    }
     done.emplace(name, file);
     progress(done.size(), files->size());
   }
@@ -70,9 +73,12 @@ bool are_same(const Installation& a, const Installation& b) {
 // If a file is removed from the source during the migration, its copy stays at the destination
 // until the destination's garbage collection.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
-                                  const MigrationProgress& progress) {
+                                  const MigrationProgress& progress, const StorageLimits& limits) {
   if (are_same(from, to))
     return fail(ErrorCode::kState, "source and destination are the same; name another destination");
+  const auto files = distinct_files(*from.catalogue);
+  if (!files) return tl::unexpected(files.error());
+  if (auto fits = check_limits(to, *files, limits); !fits) return tl::unexpected(fits.error());
   MigrationReport report;
   FilesByHash done;
   if (auto copied = copy_files(from, to, report, done, progress); !copied)

@@ -2,6 +2,7 @@
 #include "server/backup/repair.h"
 
 #include "server/backup/tar.h"
+#include "server/store/disk_space.h"
 
 namespace vitrine::server {
 namespace {
@@ -65,9 +66,15 @@ CopySource copies_in_store(const ObjectStore& store) {
   };
 }
 
-Expected<RepairReport> repair(Installation& installation, const CopySource& source) {
+Expected<RepairReport> repair(Installation& installation, const CopySource& source,
+                              std::uint64_t disk_reserve) {
   auto found = scrub(*installation.store, *installation.catalogue);
   if (!found) return tl::unexpected(found.error());
+  std::vector<NamedFile> files;
+  for (const DamagedFile& damaged : found->damaged)
+    files.push_back(damaged.file);
+  if (auto fits = check_reserve(installation, files, disk_reserve); !fits)
+    return tl::unexpected(fits.error());
   std::set<Sha256> wanted;
   for (const DamagedFile& damaged : found->damaged)
     wanted.insert(damaged.file.file);

@@ -38,8 +38,10 @@ struct RepairReport {
 
 // Checks all objects of the installation, and replaces damaged and missing objects by copies from
 // `source`. Daemons may serve the installation during the repair, and serve repaired models at
-// once. Fails with kIo if a store or the catalogue fails, and with kBadInput if the source is
-// malformed.
-Expected<RepairReport> repair(Installation& installation, const CopySource& source);
+// once. If the missing objects would leave less than `disk_reserve` bytes free on the disk, fails
+// with kLimit before it changes any object. Fails with kIo if a store or the catalogue fails, and
+// with kBadInput if the source is malformed.
+Expected<RepairReport> repair(Installation& installation, const CopySource& source,
+                              std::uint64_t disk_reserve = 0);
 
 }  // namespace vitrine::server

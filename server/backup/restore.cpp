@@ -10,6 +10,7 @@
 #include "server/backup/tar.h"
 #include "server/catalogue/private_file.h"
 #include "server/catalogue/sqlite_catalogue.h"
+#include "server/store/disk_space.h"
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
 
@@ -66,7 +67,16 @@ class Restoration {
                 fmt::format("{}: {} {}; take another backup", file_.string(), name, why));
   }
 
+  // Checks that the disk has room for all of the backup. Ignores errors, because opening the file
+  // then fails as well.
+  Expected<void> check_room() const {
+    std::error_code error;
+    const std::uint64_t bytes = fs::file_size(file_, error);
+    return error ? Expected<void>() : check_free(data_, bytes);
+  }
+
   Expected<BackupReport> unpack() {
+    if (auto fits = check_room(); !fits) return tl::unexpected(fits.error());
     auto store = FileStore::open(data_ / "objects");
     if (!store) return tl::unexpected(store.error());
     auto tar = TarReader::open(file_);

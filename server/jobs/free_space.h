@@ -4,14 +4,10 @@
 
 #include <cstdint>
 
-#include <filesystem>
-
 #include "server/config/settings.h"
 
 namespace vitrine::server {
 
-// Returns the number of free bytes on the disk of the folder, or UINT64_MAX if it is unknown.
-std::uint64_t free_space(const std::filesystem::path& folder);
 // Returns the number of free bytes on the disk of the data folder or on the disk of the uploads,
 // whichever is less.
 std::uint64_t free_space(const Settings& settings);

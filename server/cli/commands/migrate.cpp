@@ -16,13 +16,33 @@ Expected<MigrationReport> migrate_between(const Arguments& arguments) {
   if (!from) return tl::unexpected(from.error());
   auto to = open_existing(arguments.text("--to"));
   if (!to) return tl::unexpected(to.error());
+  const auto limits = storage_limits_of(arguments.text("--to"));
+  if (!limits) return tl::unexpected(limits.error());
   const auto trail = AuditTrail::open(to->place.folder);
   if (!trail) return tl::unexpected(trail.error());
-  auto report = migrate(*from, *to, [](std::size_t done, std::size_t all) {
+  const auto tell = [](std::size_t done, std::size_t all) {
     if (done == all || done % 100 == 0) print_note(fmt::format("{} of {} files", done, all));
-  });
-  trail->record("migrate", arguments.text("--from"), report.has_value());
+  };
+  auto report = migrate(*from, *to, tell, *limits);
+  trail->record("migrate", arguments.text("--from"), report && report->damaged.empty());
   return report;
+}
+
+CommandOutcome show_migration(const MigrationReport& report, bool as_json) {
+  auto damaged = nlohmann::json::array();
+  std::string text;
+  for (const DamagedFile& file : report.damaged) {
+    damaged.push_back(to_text(file));
+    text += to_text(file) + '\n';
+  }
+  if (as_json) {
+    return print_json({{"models", report.models},
+                       {"files", report.files},
+                       {"bytes", report.bytes},
+                       {"damaged", damaged}});
+  }
+  return print(text + fmt::format("{} models, {} files, {} bytes", report.models, report.files,
+                                  report.bytes));
 }
 
 CommandOutcome migrate_installation(const Arguments& arguments) {
@@ -30,10 +50,12 @@ CommandOutcome migrate_installation(const Arguments& arguments) {
   if (!arguments.has("--to")) return misused("--to is missing; name the destination");
   const auto done = migrate_between(arguments);
   if (!done) return failed(done.error());
-  if (arguments.has("--json"))
-    return print_json({{"models", done->models}, {"files", done->files}, {"bytes", done->bytes}});
-  return print(
-      fmt::format("{} models, {} files, {} bytes", done->models, done->files, done->bytes));
+  const CommandOutcome shown = show_migration(*done, arguments.has("--json"));
+  if (!shown || done->damaged.empty()) return shown;
+  return failed(
+      fmt::format("damaged files that the destination lacks: {}; put them back with 'vitrine "
+                  "repair --data {}'",
+                  done->damaged.size(), arguments.text("--to")));
 }
 
 constexpr Flag kMigrateFlags[] = {
@@ -41,7 +63,7 @@ constexpr Flag kMigrateFlags[] = {
     {"--to", "DIR|FILE",
      "destination, which must be new or hold an interrupted migration: data folder, or "
      "configuration file of its daemon (required)"},
-    {"--json", "", "print the result as one JSON object: models, files and bytes"}};
+    {"--json", "", "print the result as one JSON object: models, files, bytes and damaged"}};
 
 }  // namespace
 
@@ -51,7 +73,8 @@ const Command kMigrate = {
     .details =
         "You may start while the source's daemon runs, but stop it before the command ends: "
         "changes after the copy are lost. After an interruption, run the command again. Uploads "
-        "and scan data are not copied. For a bucket or database, give a configuration file.",
+        "and scan data are not copied. For a bucket or database, give a configuration file. If "
+        "files are damaged, copies the rest, lists them, and ends with exit code 1.",
     .flags = kMigrateFlags,
     .run = migrate_installation};
 

@@ -14,6 +14,8 @@ namespace {
 Expected<RepairReport> repair_from(const Arguments& arguments) {
   auto installation = open_existing(arguments.text("--data"));
   if (!installation) return tl::unexpected(installation.error());
+  const auto limits = storage_limits_of(arguments.text("--data"));
+  if (!limits) return tl::unexpected(limits.error());
   const auto trail = AuditTrail::open(installation->place.folder);
   if (!trail) return tl::unexpected(trail.error());
   const auto recorded = [&](std::string_view source, Expected<RepairReport> report) {
@@ -22,12 +24,13 @@ Expected<RepairReport> repair_from(const Arguments& arguments) {
   };
   if (arguments.has("--backup")) {
     const std::string backup = arguments.text("--backup");
-    return recorded(backup, repair(*installation, copies_in_backup(backup)));
+    return recorded(backup, repair(*installation, copies_in_backup(backup), limits->disk.reserve));
   }
   const std::string source = arguments.text("--from");
   const auto from = open_existing(source);
   if (!from) return tl::unexpected(from.error());
-  return recorded(source, repair(*installation, copies_in_store(*from->store)));
+  return recorded(source,
+                  repair(*installation, copies_in_store(*from->store), limits->disk.reserve));
 }
 
 nlohmann::json names_of(const std::vector<DamagedFile>& files) {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/cli/support/place.h"
 
-#include <fmt/core.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "server/config/read_file.h"
-#include "server/jobs/free_space.h"
 #include "server/jobs/place_of.h"
 
 namespace vitrine::server::cli {
@@ -44,16 +41,6 @@ Expected<StorageLimits> storage_limits_of(const std::string& text) {
   const auto limits = read_limits(text);
   if (!limits) return tl::unexpected(limits.error());
   return StorageLimits{*limits, std::filesystem::path(text) / "uploads"};
-}
-
-Expected<void> check_reserve(const InstallationPlace& place, std::uint64_t bytes,
-                             std::uint64_t reserve) {
-  const std::uint64_t free = free_space(place.folder), room = free - std::min(free, reserve);
-  if (!place.store.empty() || bytes <= room) return {};
-  return fail(ErrorCode::kLimit,
-              fmt::format("{} bytes do not fit: the disk of {} has {} bytes free, and the setting "
-                          "disk-reserve keeps {} free; remove models, or lower disk-reserve",
-                          bytes, place.folder.string(), free, reserve));
 }
 
 Expected<void> check_existing(const InstallationPlace& place) {

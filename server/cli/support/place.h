@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "server/store/disk_space.h"
 #include "server/store/installation.h"
-#include "server/store/quota.h"
 
 namespace vitrine::server::cli {
 
@@ -14,18 +14,9 @@ namespace vitrine::server::cli {
 // variables override the file.
 Expected<InstallationPlace> place_of(const std::string& text);
 
-// The daemon's limits on disk space, and the uploads, which count towards them. They come from the
-// configuration file, or from the data folder, where the daemon stores them.
-struct StorageLimits {
-  DiskLimits disk;
-  std::filesystem::path uploads;
-};
+// Returns the daemon's limits from the configuration file, or from the data folder, where the
+// daemon stores them.
 Expected<StorageLimits> storage_limits_of(const std::string& text);
-
-// Checks that the disk of the data folder keeps `reserve` bytes free after `bytes` more were
-// stored. Succeeds if objects are stored in a bucket. Fails with kLimit.
-Expected<void> check_reserve(const InstallationPlace& place, std::uint64_t bytes,
-                             std::uint64_t reserve);
 
 // Succeeds if the installation exists or its folder is empty. A mistyped name therefore does not
 // create a new installation. Fails with kIo.

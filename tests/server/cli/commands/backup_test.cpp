@@ -84,5 +84,35 @@ TEST_F(VitrineCommand, ADamagedFileIsPutBackFromAnotherInstallation) {
   expect_fault(vitrine({"doctor", "--scrub"}), 2);
 }
 
+TEST_F(VitrineCommand, AMigrationListsDamagedFilesAndCopiesTheRest) {
+  const std::string data = empty_folder("data"), to = empty_folder("to");
+  vitrine_json({"publish", model(), "--data", data});
+  const auto damaged = damage_object(data);
+  const auto moved = vitrine({"migrate", "--from", data, "--to", to});
+  expect_fault({moved.exit_code, "", moved.errors}, 1);
+  EXPECT_THAT(moved.output, ::testing::HasSubstr("object " + damaged));
+  EXPECT_THAT(moved.errors, ::testing::HasSubstr("vitrine repair --data " + to));
+  EXPECT_THAT(moved.output, ::testing::HasSubstr("1 models, 0 files, 0 bytes"));
+}
+
+TEST_F(VitrineCommand, MigrationsAndRepairsKeepTheDiskReserveOfTheirDestinationFree) {
+  const std::string data = empty_folder("data"), other = path("other"), to = empty_folder("to");
+  const std::string reserve = "9000000000000000000";
+  const auto conf = [&](const std::string& name, const std::string& folder) {
+    return write(name, "data = " + folder + "\ndisk-reserve = " + reserve + "\n");
+  };
+  vitrine_json({"publish", model(), "--data", data});
+  vitrine_json({"backup", "--data", data, "-o", path("backup.tar")});
+  vitrine_json({"restore", path("backup.tar"), "--data", other});
+  const auto refused = vitrine({"migrate", "--from", data, "--to", conf("to.conf", to)});
+  expect_fault(refused, 1);
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("keeps " + reserve + " free"));
+  EXPECT_EQ(vitrine({"migrate", "--from", data, "--to", to}).exit_code, 0);
+  std::filesystem::remove_all(data + "/objects");
+  const auto also = vitrine({"repair", "--data", conf("data.conf", data), "--from", other});
+  expect_fault(also, 1);
+  EXPECT_THAT(also.errors, ::testing::HasSubstr("keeps " + reserve + " free"));
+}
+
 }  // namespace
 }  // namespace vitrine::test
