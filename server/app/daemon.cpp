@@ -231,9 +231,9 @@ class Daemon {
                                 "chmod o-rwx {}",
                                 live_.get().data.string()));
     }
-    models_.refresh_by([this](std::function<void()> refresh) {
-      asio::post(workers_.executor(Executor::kWorker), std::move(refresh));
-    });
+    models_.limit_copies_to([this] { return room_of(live_.get()); });
+    models_.refresh_by(
+        [this](auto task) { asio::post(workers_.executor(Executor::kWorker), std::move(task)); });
     wait_for_signal();
     wait_for_reload();
     admin_.start();

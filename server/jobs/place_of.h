@@ -2,7 +2,10 @@
 // Derives the locations of an installation, and its limits on disk space, from the settings.
 #pragma once
 
+#include <algorithm>
+
 #include "server/config/settings.h"
+#include "server/store/disk_space.h"
 #include "server/store/installation.h"
 #include "server/store/quota.h"
 
@@ -22,6 +25,12 @@ inline std::filesystem::path uploads_of(const Settings& settings) {
 
 inline DiskLimits disk_limits_of(const Settings& settings) {
   return {.quota = settings.quota_bytes, .reserve = settings.disk_reserve_bytes};
+}
+
+// Returns how many bytes more the disk of the data folder can hold beside disk-reserve.
+inline std::uint64_t room_of(const Settings& settings) {
+  const std::uint64_t free = free_space(settings.data);
+  return free - std::min(free, settings.disk_reserve_bytes);
 }
 
 }  // namespace vitrine::server

@@ -310,9 +310,45 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open_file(ModelRecord r
     was_damaged = damaged_.contains(file);
     damages = count_of_damages(file);
   }
+  struct Copying {
+    ~Copying() { sum -= bytes; }
+    std::atomic<std::uint64_t>& sum;
+    std::uint64_t bytes = 0;
+  } copying{copying_};
+  if (room_ && store_.keeps_copies()) {
+    if (auto reserved = reserve_copy(record); !reserved) return tl::unexpected(reserved.error());
+    copying.bytes = record.file_bytes;
+  }
   auto model = PublishedModel::open(store_, std::move(record), damages);
   if (model && was_damaged) set_intact(file);
   return model;
+}
+
+// Adds the file to `copying_`. Drops models until the disk has room for the copy. If all of them
+// would free too little, keeps them and fails. Models that are being sent free their room later.
+// Copies in progress count whole, because it is not known how much of them is on the disk already.
+Expected<void> PublishedModels::reserve_copy(const ModelRecord& record) {
+  const std::unique_lock lock(mutex_);
+  std::uint64_t droppable = 0;
+  for (const auto& [scope, held] : models_)
+    droppable += held.model->file().size();
+  const std::uint64_t needed = copying_ + record.file_bytes, room = room_();
+  const std::uint64_t lacking = needed - std::min(needed, room);
+  std::uint64_t freed = 0;  // file systems report freed room only after seconds, so it is added up
+  while (lacking > freed && lacking - freed <= droppable) {
+    const ModelPointer dropped = drop_least_recently_used();
+    droppable -= dropped->file().size();
+    if (dropped.use_count() == 1) freed += dropped->file().size();
+  }
+  if (lacking > freed) {
+    return fail(ErrorCode::kIo,
+                fmt::format("model {} cannot be opened: copies of objects need {} bytes, but the "
+                            "disk of the data folder has room for {} beside disk-reserve; free "
+                            "some space, or lower disk-reserve",
+                            record.id.to_string(), needed, room + freed));
+  }
+  copying_ += record.file_bytes;
+  return {};
 }
 
 bool PublishedModels::is_known_damaged(const Sha256& file, std::uint64_t revision) const {
@@ -438,12 +474,18 @@ PublishedModels::CachedModels::iterator PublishedModels::drop(CachedModels::iter
   return models_.erase(held);
 }
 
+PublishedModels::ModelPointer PublishedModels::drop_least_recently_used() {
+  const auto oldest = std::ranges::min_element(models_, {}, [](const auto& entry) {
+    return entry.second.model->asked_.load(std::memory_order_relaxed);
+  });
+  ModelPointer model = oldest->second.model;
+  drop(oldest);
+  return model;
+}
+
 void PublishedModels::make_room() {
-  while (bytes_ > max_bytes_ || models_.size() > kMaxOpenModels) {
-    drop(std::ranges::min_element(models_, {}, [](const auto& entry) {
-      return entry.second.model->asked_.load(std::memory_order_relaxed);
-    }));
-  }
+  while (bytes_ > max_bytes_ || models_.size() > kMaxOpenModels)
+    drop_least_recently_used();
 }
 
 void PublishedModels::set_capacity(std::uint64_t max_bytes) {

@@ -111,6 +111,12 @@ class PublishedModels {
   using Post = std::function<void(std::function<void()> task)>;
   void refresh_by(Post post) { post_ = std::move(post); }
 
+  // Sets the function that returns how many bytes more the disk can hold. If opening a model copies
+  // its file to the disk, least recently used models are then dropped until the copy fits. If it
+  // still does not fit, opening fails with kIo. Call this before the first request.
+  using Room = std::function<std::uint64_t()>;
+  void limit_copies_to(Room room) { room_ = std::move(room); }
+
   // Returns the public part of a model, or null if the model does not exist or is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
@@ -206,6 +212,7 @@ class PublishedModels {
   Expected<ModelPointer> open(const Scope& scope);
   Expected<ModelPointer> open_newest(const Scope& scope, std::uint64_t revision);
   Expected<ModelPointer> open_file(ModelRecord record, std::uint64_t revision);
+  Expected<void> reserve_copy(const ModelRecord& record);
   void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
   // Whether the file was damaged at this revision. The caller holds the lock.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
@@ -215,12 +222,16 @@ class PublishedModels {
   bool try_to_remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
   void index_chunks(const ModelPointer& model);               // the caller holds the lock
   CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds the lock
+  ModelPointer drop_least_recently_used();                    // the caller holds the lock
   void make_room();                                           // the caller holds the lock
 
   const ObjectStore& store_;
   Catalogue& catalogue_;
   const std::chrono::milliseconds staleness_;
   Post post_;
+  Room room_;
+  // Total size of the files that are being copied to the disk. Increases only under the lock.
+  std::atomic<std::uint64_t> copying_{0};
 
   std::shared_mutex mutex_;  // guards the members below
   std::uint64_t revision_ = 0;

@@ -34,8 +34,10 @@ class WatchedStore final : public test::StoreBefore {
   }
 
   mutable std::atomic<int> opened{0};
+  bool keeps_copies() const override { return copies; }
+
   std::function<void()> before_opening = [] {};
-  bool is_away = false;
+  bool is_away = false, copies = false;
 };
 
 class PublishedModelsTest : public testing::Test {
@@ -355,6 +357,74 @@ TEST_F(PublishedModelsTest, TheCatalogueIsAskedInTheBackground) {
   lazy.cached_chunk(name_of("one"));
   EXPECT_EQ(tasks.size(), 1u) << "once for all";
   tasks.front()();
+}
+
+class LimitedCopiesTest : public PublishedModelsTest {
+ protected:
+  LimitedCopiesTest() {
+    store_.copies = true;
+    models_.limit_copies_to([this] { return room_; });
+  }
+  std::uint64_t size_of(const ModelId& id) { return catalogue_->find(id).value()->file_bytes; }
+
+  const ModelId one_ = add("one"), two_ = add("two");
+  std::uint64_t room_ = UINT64_MAX;
+};
+
+TEST_F(LimitedCopiesTest, TheLeastRecentlyUsedModelMakesRoomOnTheDisk) {
+  const ModelId big = add("the big one");
+  get(one_);
+  get(two_);
+  get(one_);
+  room_ = size_of(big) - 1;
+  EXPECT_TRUE(get(big));
+  models_.misses = 0;
+  get(one_);
+  EXPECT_EQ(models_.misses, 0u) << "it was used after the other";
+  room_ = UINT64_MAX;
+  get(two_);
+  EXPECT_EQ(models_.misses, 1u);
+}
+
+TEST_F(LimitedCopiesTest, ACopyThatDoesNotFitIsRefusedAndDropsNothing) {
+  get(one_);
+  room_ = 0;
+  const ModelId big = add(std::string(5'000, 'b'));
+  const auto refused = models_.find(big);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kIo);
+  EXPECT_NE(refused.error().message.find("free some space, or lower disk-reserve"),
+            std::string::npos);
+  EXPECT_EQ(models_.misses, 2u);
+  get(one_);
+  EXPECT_EQ(models_.misses, 2u) << "it stays open";
+  room_ = size_of(big);
+  EXPECT_TRUE(get(big)) << "the refused copy takes no room";
+}
+
+TEST_F(LimitedCopiesTest, AModelThatIsBeingSentMakesNoRoom) {
+  const auto sent = models_.find(one_).value();
+  room_ = size_of(two_) - 1;
+  EXPECT_FALSE(models_.find(two_));
+  room_ = size_of(two_);
+  EXPECT_TRUE(models_.find(two_));
+}
+
+TEST_F(LimitedCopiesTest, CopiesInProgressCount) {
+  room_ = size_of(one_) + size_of(two_) - 1;
+  store_.before_opening = [&, is_first = true]() mutable {
+    if (std::exchange(is_first, false)) {
+      EXPECT_FALSE(models_.find(two_));
+    }
+  };
+  EXPECT_TRUE(models_.find(one_));
+  EXPECT_TRUE(models_.find(two_));
+}
+
+TEST_F(LimitedCopiesTest, AStoreThatOpensItsOwnFilesNeedsNoRoom) {
+  store_.copies = false;
+  room_ = 0;
+  EXPECT_TRUE(get(one_));
 }
 
 // A catalogue that can be made unreachable.
