@@ -52,7 +52,6 @@ ApiOpeningFinder finder_for(std::string_view path) {
 }
 
 bool may_open(const ApiRoute& route) {
-  if (route.is_urgent) return false;
   return route.executor == Executor::kWorker || route.executor == Executor::kCompute;
 }
 
@@ -63,8 +62,7 @@ Route bind(const ApiRoute& route, Services& services) {
                           &services](const Request& request) { return handler(request, services); },
               .executor = route.executor,
               .role = route.role,
-              .body = route.body,
-              .is_urgent = route.is_urgent};
+              .body = route.body};
   if (route.quick != nullptr) {
     bound.quick = [quick = route.quick, &services](const Request& request) {
       return quick(request, services);

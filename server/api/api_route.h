@@ -42,7 +42,6 @@ struct ApiRoute {
   Role role = Role::kNone;
   ApiQuickHandler quick = nullptr;
   BodyKind body = BodyKind::kJson;
-  bool is_urgent = false;
   ApiOpeningFinder opens = nullptr;
   RouteDoc doc = {};
 };

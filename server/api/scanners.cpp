@@ -202,14 +202,12 @@ static constexpr ApiRoute kScannerRoutes[] = {
                  "when a job begins.",
              .request = "LaserSwitch",
              .response = "Scanner"}},
-    // An emergency stop must not queue behind requests that wait for devices or the disk.
     {.method = Method::kPost,
      .path = "/api/v1/scanners/{name}/stop",
      .handler = stop_scanner,
-     .executor = Executor::kWorker,
+     .executor = Executor::kUrgent,
      .role = Role::kOperator,
      .body = BodyKind::kPieces,
-     .is_urgent = true,
      .doc = {.id = "stopScanner",
              .summary = "Emergency stop: switches laser and motor off at once. The request body "
                         "is ignored.",

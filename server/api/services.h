@@ -58,11 +58,13 @@ struct Services {
   // Limits on the number of requests that are being forwarded. Each forwarded request keeps a
   // worker thread waiting until the other daemon responds. There are separate limits for requests
   // without a token, requests with a token, and emergency stops. One address may use at most half
-  // of the limit for requests without a token. The worker pool has one extra thread for each
-  // request that may be forwarded (WorkerOptions), so that other requests and the watchdog never
-  // wait for another daemon.
+  // of the limit for requests without a token. The worker pool has so many extra threads
+  // (WorkerOptions) that a quarter of the pool, the share of one token, is larger than the limit.
+  // So no request, nor the watchdog, ever waits for another daemon, except the forwarded requests.
+  // The threads for emergency stops include two that none of them keeps waiting.
   static constexpr std::size_t kMostForwarded = 8;  // limit for each of the three kinds of requests
-  static constexpr unsigned kWaitingThreads = 3 * kMostForwarded;
+  static constexpr unsigned kWaitingThreads = 4 * kMostForwarded;
+  static constexpr unsigned kUrgentThreads = kMostForwarded + 2;
   const std::shared_ptr<AdmissionLimit> forwarded_for_strangers =
       std::make_shared<AdmissionLimit>(kMostForwarded, kMostForwarded / 2);
   const std::shared_ptr<AdmissionLimit> forwarded_for_callers =

@@ -173,21 +173,13 @@ class ModelStreamHost : public StreamHost {
 
  private:
   asio::awaitable<Expected<StreamedModel>> find_on_worker(ModelId id) {
-    std::optional<Opening> opening;
-    auto look = [&]() -> asio::awaitable<void> {
-      opening = opening_of(id, client_.caller.has_value(), services_.models);
-      co_return;
-    };
-    co_await asio::co_spawn(server_.workers().executor(Executor::kWorker), look,
-                            asio::use_awaitable);
-    if (opening) {
-      co_await server_.workers().open(
-          client_.caller ? client_.caller->token.to_string() : network_of(client_.address),
-          std::move(*opening));
-    }
-    auto work = [&]() -> asio::awaitable<Expected<StreamedModel>> { co_return find_now(id); };
-    co_return co_await asio::co_spawn(server_.workers().executor(Executor::kWorker), work,
-                                      asio::use_awaitable);
+    Workers& workers = server_.workers();
+    std::string owner =
+        client_.caller ? client_.caller->token.to_string() : network_of(client_.address);
+    const auto look = [&] { return opening_of(id, client_.caller.has_value(), services_.models); };
+    auto opening = co_await workers.run(Executor::kWorker, owner, "", look);
+    if (opening) co_await workers.open(owner, std::move(*opening));
+    co_return co_await workers.run(Executor::kWorker, owner, "", [&] { return find_now(id); });
   }
 
   Expected<StreamedModel> find_now(const ModelId& id) {

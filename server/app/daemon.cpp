@@ -55,8 +55,6 @@ constexpr std::chrono::seconds kScannerLease{30};
 constexpr std::chrono::seconds kVisitFlushEvery{10};
 // Webhooks that the settings do not allow are dropped this long after their jobs have ended.
 constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);
-// Largest number of exports that run or wait at a time. A running export holds a decoded mesh.
-constexpr std::size_t kMaxExports = 64;
 
 Unexpected of_admin(const Error& error) {
   return fail(error.code, "--admin-listen: " + error.message);
@@ -184,7 +182,7 @@ class Daemon {
         io_(static_cast<int>(threads_)),
         workers_({.threads = threads_,
                   .waiting_threads = Services::kWaitingThreads,
-                  .max_computations = kMaxExports}),
+                  .urgent_threads = Services::kUrgentThreads}),
         public_(io_, http_dependencies(), public_options()),
         admin_(io_, http_dependencies(), admin_options()),
         control_(asio::make_strand(io_)),

@@ -29,16 +29,19 @@ class FairQueue {
     const auto next =
         std::ranges::find_if(items_, [&](const auto& entry) { return is_ready(entry.second); });
     if (next == items_.end()) return std::nullopt;
-    round_ = std::max(round_, next->first.first);
-    // Forgets owners whose last item was in an earlier round; their next items join the current
-    // round.
-    std::erase_if(last_round_, [this](const auto& owner) { return owner.second < round_; });
+    if (next->first.first > round_) begin_round(next->first.first);
     std::optional<Item> item = std::move(next->second);
     items_.erase(next);
     return item;
   }
 
  private:
+  // Forgets owners whose last item was in an earlier round; their next items join the new round.
+  void begin_round(std::uint64_t round) {
+    round_ = round;
+    std::erase_if(last_round_, [this](const auto& owner) { return owner.second < round_; });
+  }
+
   // The key is the round and the order of arrival.
   std::map<std::pair<std::uint64_t, std::uint64_t>, Item> items_;
   std::map<std::string, std::uint64_t>

@@ -140,7 +140,7 @@ asio::awaitable<bool> Dispatcher::dispatch(RequestParser& parser, Exchange& exch
 }
 
 void Dispatcher::count_error(Exchange& exchange) {
-  const bool is_stop = exchange.route != nullptr && exchange.route->is_urgent && exchange.caller;
+  const bool is_stop = exchange.route != nullptr && is_urgent(*exchange.route) && exchange.caller;
   const bool is_made = exchange.route != nullptr && exchange.response.status < 400;
   if (is_made || exchange.is_rated || is_stop) return;
   static_cast<void>(has_no_call_left(network_of(exchange.client.address), exchange));
@@ -197,7 +197,7 @@ asio::awaitable<bool> Dispatcher::answer(RequestParser& parser, Exchange& exchan
                         .caller = exchange.caller,
                         .is_encrypted = exchange.client.is_encrypted,
                         .client_address = exchange.client.address,
-                        .is_urgent = route.is_urgent};
+                        .is_urgent = is_urgent(route)};
   if (answer_at_once(request, exchange)) co_return true;
   if (route.executor != Executor::kInline &&
       is_beyond_rate(network_of(exchange.client.address), exchange)) {
@@ -222,7 +222,7 @@ asio::awaitable<bool> Dispatcher::answer(RequestParser& parser, Exchange& exchan
 
 // Sets a 429 response and returns true if `client` exceeds the request rate.
 bool Dispatcher::is_beyond_rate(std::string_view client, Exchange& exchange) {
-  return !exchange.route->is_urgent && has_no_call_left(client, exchange);
+  return !is_urgent(*exchange.route) && has_no_call_left(client, exchange);
 }
 
 bool Dispatcher::has_no_call_left(std::string_view client, Exchange& exchange) {
@@ -241,8 +241,10 @@ asio::awaitable<bool> Dispatcher::authorise_caller(const RequestHeader& header,
   const Credentials credentials{header, exchange.client.address, exchange.id};
   auto found = authorise_at_once(*exchange.route, credentials, with);
   if (!found) {
-    co_await on_worker(Executor::kWorker,
-                       [&] { found = authorise(*exchange.route, credentials, with); });
+    connection_.never_expires();
+    co_await server_.workers().look_up_token(network_of(exchange.client.address), [&] {
+      found = authorise(*exchange.route, credentials, with);
+    });
   }
   exchange.caller = found->caller;
   if (found->refusal) exchange.response = std::move(*found->refusal);
@@ -270,13 +272,7 @@ asio::awaitable<void> Dispatcher::handle(const Request& request, Exchange& excha
     exchange.response = not_admitted(pass.error(), exchange.id);
     co_return;
   }
-  FairTurns::Turn turn;
-  if (route.executor == Executor::kCompute) {
-    connection_.never_expires();
-    turn = co_await server_.workers().computing_turn(owner_of(exchange),
-                                                     std::string(target_of(request.header)));
-  }
-  co_await on_worker(route.executor, run);
+  co_await on_worker(route.executor, exchange, run, std::string(target_of(request.header)));
 }
 
 // Opens the file that the handler needs, on threads that only open files. If handlers opened large
@@ -287,7 +283,7 @@ asio::awaitable<bool> Dispatcher::open_first(const Request& request, const Excha
   const Route& route = *exchange.route;
   std::optional<Opening> opening;
   bool has_run = false;
-  co_await on_worker(Executor::kWorker, [&] {
+  co_await on_worker(Executor::kWorker, exchange, [&] {
     try {
       opening = route.opens(request);
     } catch (const std::exception&) {  // the handler opens the file itself, and reports the fault
@@ -319,14 +315,14 @@ asio::awaitable<bool> Dispatcher::pour(RequestParser& parser, Exchange& exchange
   const std::shared_ptr<BodySink> sink = std::move(exchange.response.sink);
   std::optional<Response> refusal;
   RequestReader::Consumer take = [&](std::span<const std::uint8_t> piece) -> asio::awaitable<bool> {
-    co_await on_worker(Executor::kDisk,
+    co_await on_worker(Executor::kDisk, exchange,
                        [&] { refusal = guarded(exchange.id, [&] { return sink->take(piece); }); });
     co_return !refusal;
   };
   const ReadResult read = co_await reader_.read_pieces(parser, exchange, std::move(take));
   if (refusal) exchange.response = std::move(*refusal);
   if (refusal || read == ReadResult::kRejected) co_return true;
-  co_await on_worker(Executor::kDisk, [&] {
+  co_await on_worker(Executor::kDisk, exchange, [&] {
     exchange.response = guarded(exchange.id, [&] { return sink->finish(); });
   });
   co_return read == ReadResult::kRead;
@@ -334,13 +330,10 @@ asio::awaitable<bool> Dispatcher::pour(RequestParser& parser, Exchange& exchange
 
 // Runs `task` on a worker. This connection waits; other connections are served in the meantime.
 template <class Task>
-asio::awaitable<void> Dispatcher::on_worker(Executor executor, const Task& task) {
+asio::awaitable<void> Dispatcher::on_worker(Executor executor, const Exchange& exchange,
+                                            const Task& task, std::string target) {
   connection_.never_expires();
-  auto work = [&]() -> asio::awaitable<void> {
-    task();
-    co_return;
-  };
-  co_await asio::co_spawn(server_.workers().executor(executor), work, asio::use_awaitable);
+  co_await server_.workers().run(executor, owner_of(exchange), std::move(target), task);
 }
 
 }  // namespace vitrine::server

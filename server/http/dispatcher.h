@@ -37,7 +37,8 @@ class Dispatcher {
   auto guarded(std::string_view id, const Make& make) -> decltype(make());
   asio::awaitable<bool> pour(RequestParser& parser, Exchange& exchange);
   template <class Task>
-  asio::awaitable<void> on_worker(Executor executor, const Task& task);
+  asio::awaitable<void> on_worker(Executor executor, const Exchange& exchange, const Task& task,
+                                  std::string target = "");
 
   Connection& connection_;
   HttpServer& server_;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits how many tasks run at the same time. Each task belongs to an owner, and the owners take
-// turns. An owner with many tasks therefore delays every other owner by only one task.
+// Limits how many tasks run at the same time, in total and per owner. The owners take turns. An
+// owner with many tasks therefore delays every other owner by only one task.
 #pragma once
 
+#include <cstdint>
+#include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -16,33 +19,45 @@ namespace vitrine::server {
 // Thread-safe. Must be owned by a shared pointer, because each turn keeps the object alive.
 class FairTurns : public std::enable_shared_from_this<FairTurns> {
  public:
-  explicit FairTurns(std::size_t at_a_time) : free_(at_a_time) {}
+  // At most `at_a_time` tasks run at the same time, and at most `per_owner` of each owner.
+  explicit FairTurns(std::size_t at_a_time, std::size_t per_owner = SIZE_MAX)
+      : per_owner_(per_owner), free_(at_a_time) {}
 
   // A turn: the permission to run one task. It lasts until its last copy is destroyed.
   using Turn = std::shared_ptr<const void>;
-  // Waits for a turn of `owner`. Tasks with equal targets run one after the other. Must be called
-  // on a strand.
-  asio::awaitable<Turn> wait(std::string owner, std::string target);
+  // Waits for a turn of `owner`. Tasks with equal targets run one after the other, unless the
+  // target is empty. Must be called on a strand.
+  asio::awaitable<Turn> wait(std::string owner, std::string target = "");
 
   void stop();  // no turn begins after this call
 
  private:
   struct Waiter {
     asio::steady_timer timer;
-    std::string target;   // empty once the waiter has its turn
-    Turn turn = nullptr;  // used only on the timer's strand
+    std::string owner, target;  // empty once the waiter has its turn
+    Turn turn = nullptr;        // used only on the timer's strand
   };
-  void give_turns();
+  struct OwnersTasks {
+    std::size_t admitted = 0;  // number of tasks that run or are in `waiting_`
+    // The other tasks. They are not in `waiting_`, so that take_next() need not skip them.
+    std::list<std::shared_ptr<Waiter>> further;
+  };
+  void push(const std::shared_ptr<Waiter>& waiter);
+  // Begins as many turns as are free. `here` is null, or the waiter on whose strand the caller
+  // runs.
+  void give_turns(const std::shared_ptr<Waiter>& here);
   // Removes the next waiter from the queue and marks its target as running. Returns null if no turn
   // is free, or no waiter is ready.
   std::shared_ptr<Waiter> take_next();
-  void begin(const std::shared_ptr<Waiter>& waiter);
-  void end(const std::string& target);
+  Turn turn_of(Waiter& waiter);
+  void end(const std::string& owner, const std::string& target);
 
+  const std::size_t per_owner_;
   std::mutex mutex_;  // guards the members below
   std::size_t free_;
   bool is_stopped_ = false;
   std::set<std::string> running_;  // targets of the running tasks
+  std::map<std::string, OwnersTasks> tasks_of_;
   FairQueue<std::shared_ptr<Waiter>> waiting_;
 };
 

@@ -2,9 +2,11 @@
 // Worker threads for handlers that would block the connections' threads.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "server/http/admission_limit.h"
 #include "server/http/beast.h"
@@ -18,8 +20,10 @@ struct WorkerOptions {
   // Number of threads for Executor::kWorker. Executor::kCompute has the same number of separate
   // threads.
   unsigned threads = 1;
-  unsigned waiting_threads = 0;       // additional threads for handlers that wait for other daemons
-  std::size_t max_computations = 64;  // largest number of computations that run or wait
+  unsigned waiting_threads = 0;  // additional threads for handlers that wait for other daemons
+  unsigned urgent_threads = 1;   // number of threads for Executor::kUrgent
+  // Largest number of computations that run or wait. One that runs may hold a decoded mesh.
+  std::size_t max_computations = 64;
 };
 
 class Workers {
@@ -31,11 +35,20 @@ class Workers {
   tl::expected<AdmissionLimit::Pass, AdmissionLimit::Refusal> admit(Executor where,
                                                                     const std::string& address);
 
-  // Waits until a computation of `owner` may run on the executor for Executor::kCompute; see
-  // FairTurns.
-  asio::awaitable<FairTurns::Turn> computing_turn(std::string owner, std::string target) {
-    return turns_->wait(std::move(owner), std::move(target));
+  // Runs `task` on a thread for `where`, and returns its result. `owner` is the client's token, or
+  // its network (network_of()) if it has none. On kWorker and kCompute, owners take turns: on
+  // kWorker an owner has at most a quarter of the threads, on kCompute tasks with equal targets run
+  // one after the other. Must be called on a strand.
+  template <class Task>
+  asio::awaitable<std::invoke_result_t<const Task&>> run(Executor where, std::string owner,
+                                                         std::string target, const Task& task) {
+    const FairTurns::Turn turn = co_await turn_on(where, std::move(owner), std::move(target));
+    co_return co_await run_on(executor(where), task);
   }
+
+  // Runs `task`, which looks up the token of a client in `network`, on threads that only look up
+  // tokens. Networks take turns. Must be called on a strand.
+  asio::awaitable<void> look_up_token(std::string network, std::function<void()> task);
 
   // Opens a file for a request of `owner`, on threads that only open files. Owners take turns.
   // Requests for the same file also take turns, so that only the first one has to open it. If the
@@ -56,10 +69,25 @@ class Workers {
   void join();
 
  private:
+  // Runs `task` on the executor and returns its result.
+  template <class Task>
+  static asio::awaitable<std::invoke_result_t<const Task&>> run_on(asio::any_io_executor threads,
+                                                                   const Task& task) {
+    auto work = [&]() -> asio::awaitable<std::invoke_result_t<const Task&>> { co_return task(); };
+    co_return co_await asio::co_spawn(std::move(threads), work, asio::use_awaitable);
+  }
+  // Waits until a task of `owner` may run on `where`.
+  asio::awaitable<FairTurns::Turn> turn_on(Executor where, std::string owner, std::string target);
+  auto pools() {
+    return std::array{&pool_,   &computations_, &devices_, &disk_,
+                      &checks_, &openings_,     &lookups_, &urgent_};
+  }
+
   static constexpr std::size_t kDeviceThreads = 4, kMaxDeviceTasks = 32;
   static constexpr std::size_t kDiskThreads = 4, kMaxDiskTasks = 64;
   // The number of opening threads is large, because they often wait for a disk or a bucket.
   static constexpr std::size_t kOpeningThreads = 8;
+  static constexpr std::size_t kLookupThreads = 4;
 
   asio::thread_pool pool_;
   asio::thread_pool computations_;
@@ -67,8 +95,12 @@ class Workers {
   asio::thread_pool disk_{kDiskThreads};
   asio::thread_pool checks_{1};
   asio::thread_pool openings_{kOpeningThreads};
-  const std::shared_ptr<FairTurns> turns_;  // turns on the threads of computations_
+  asio::thread_pool lookups_{kLookupThreads};
+  asio::thread_pool urgent_;
+  // Turns on the threads of pool_, computations_, openings_ and lookups_.
+  const std::shared_ptr<FairTurns> worker_turns_, computing_turns_;
   const std::shared_ptr<FairTurns> opening_turns_ = std::make_shared<FairTurns>(kOpeningThreads);
+  const std::shared_ptr<FairTurns> lookup_turns_ = std::make_shared<FairTurns>(kLookupThreads, 1);
   SharedFailures failures_;
   const std::shared_ptr<AdmissionLimit> computation_limit_, device_limit_, disk_limit_;
 };

@@ -57,7 +57,7 @@ struct Request {
   const std::optional<Caller>& caller;
   bool is_encrypted = false;             // whether the client uses HTTPS
   std::string_view client_address = {};  // see Client::address
-  bool is_urgent = false;                // see Route::is_urgent
+  bool is_urgent = false;                // see server::is_urgent()
 };
 
 using Handler = std::function<Response(const Request& request)>;
@@ -77,10 +77,12 @@ using OpeningFinder = std::function<std::optional<Opening>(const Request& reques
 // The thread on which a handler runs.
 enum class Executor : std::uint8_t {
   kInline,   // the connection's own thread: the handler uses memory and open files only
-  kWorker,   // a worker thread: the handler may wait for the catalogue and read from the disk
+  kWorker,   // a worker thread: the handler may wait for the catalogue and read from the disk;
+             // callers take turns
   kDisk,     // a thread for handlers that wait for durable writes or for the store's lock
   kCompute,  // a thread for long computations; callers take turns; one task per target
   kDevice,   // a thread for handlers that wait for devices, for up to several seconds
+  kUrgent,   // a thread for emergency stops only: no rate limit or queue delays them
 };
 
 // A kGet route also answers HEAD requests. If a path has no kOptions route, the server itself
@@ -110,10 +112,12 @@ struct Route {
   Executor executor = Executor::kInline;
   Role role = Role::kNone;  // the lowest role that a caller needs; kNone: no token is needed
   BodyKind body = BodyKind::kJson;
-  // Whether this is the route of an emergency stop, which must not be delayed by rate limits or
-  // queues.
-  bool is_urgent = false;
 };
+
+// Whether this is the route of an emergency stop.
+inline bool is_urgent(const Route& route) {
+  return route.executor == Executor::kUrgent;
+}
 
 // Whether pages of other origins may read the responses of `route`.
 inline bool is_public_read(const Route& route) {

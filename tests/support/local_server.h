@@ -41,6 +41,7 @@ class LocalServer {
         metrics_(path_templates(routes)),
         workers_({.threads = 2,
                   .waiting_threads = Services::kWaitingThreads,
+                  .urgent_threads = Services::kUrgentThreads,
                   .max_computations = max_exports}),
         server_(io_,
                 {.tokens = tokens_,

@@ -16,7 +16,7 @@
 namespace vitrine::server {
 namespace {
 
-std::counting_semaphore<8> entered{0}, may_end{0};
+std::counting_semaphore<> entered{0}, may_end{0};
 
 Response wait_for_the_test(const Request&, Services&) {
   entered.release();
@@ -89,6 +89,10 @@ constexpr ApiRoute kCrowdedRoutes[] = {
      .path = "/turn",
      .handler = note_the_turn,
      .executor = Executor::kCompute},
+    {.method = Method::kGet,
+     .path = "/read",
+     .handler = wait_for_the_test,
+     .executor = Executor::kWorker},
     {.method = Method::kPost,
      .path = "/work",
      .handler = wait_for_the_test,
@@ -119,6 +123,75 @@ constexpr ApiRoute kCrowdedRoutes[] = {
      .executor = Executor::kInline},
 };
 
+std::string sent_from(const std::string& address) {
+  return "X-Forwarded-For: " + address + "\r\n";
+}
+
+HttpOptions behind_a_proxy() {
+  return {.proxies = Networks::parse("127.0.0.1").value()};
+}
+
+// More slow reads than the server has threads for them. The reads end with this object.
+class SlowReads {
+ public:
+  static constexpr int kThreads = 2 + Services::kWaitingThreads, kReads = kThreads + 4;
+
+  // Read number i comes from the address `address_of(i)`.
+  SlowReads(std::uint16_t port, std::string (*address_of)(int)) {
+    while (entered.try_acquire()) {  // discards what earlier tests have left
+    }
+    for (int i = 0; i < kReads; ++i) {
+      clients_.push_back(std::make_unique<test::HttpClient>(port));
+      clients_.back()->send("GET /read HTTP/1.1\r\nHost: a\r\n" + sent_from(address_of(i)) +
+                            "\r\n");
+    }
+  }
+  ~SlowReads() {
+    may_end.release(kReads);
+    wait_for(not_seen_);
+  }
+  SlowReads(const SlowReads&) = delete;
+  SlowReads& operator=(const SlowReads&) = delete;
+
+  void wait_until_all_threads_are_busy() {
+    wait_for(kThreads);
+    not_seen_ -= kThreads;
+  }
+
+ private:
+  static void wait_for(int reads) {
+    for (int i = 0; i < reads; ++i)
+      entered.acquire();
+  }
+
+  std::vector<std::unique_ptr<test::HttpClient>> clients_;
+  int not_seen_ = kReads;  // number of reads whose begin was not awaited
+};
+
+TEST(Overload, AnAddressWithManySlowReadsDelaysNoReadOfAnother) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {}, behind_a_proxy());
+  const SlowReads reads(server.port(), [](int) -> std::string { return "192.0.2.1"; });
+  // One thread serves all connections, so it has read the slow requests before this one.
+  const std::string other = sent_from("192.0.2.2") + "Content-Length: 0\r\n";
+  EXPECT_EQ(test::http_get(server.port(), "/quick", other, "POST").status, 200);
+}
+
+TEST(Overload, SlowReadsOfManyAddressesDelayNoEmergencyStop) {
+  std::vector<ApiRoute> routes(std::begin(kCrowdedRoutes), std::end(kCrowdedRoutes));
+  routes.insert(routes.end(), public_routes().begin(), public_routes().end());
+  test::FakeScanner world;
+  std::vector<std::unique_ptr<ScannerBackend>> scanners;
+  scanners.push_back(std::make_unique<test::FakeBackend>(world));
+  test::LocalServer server(routes, std::chrono::seconds(30), std::move(scanners), behind_a_proxy());
+  ASSERT_TRUE(server.scans().start());
+  SlowReads reads(server.port(), [](int i) { return "192.0.2." + std::to_string(i); });
+  reads.wait_until_all_threads_are_busy();
+  // The server has not seen this token before, so it must look it up.
+  const std::string who = server.bearer(Role::kOperator) + "Content-Length: 0\r\n";
+  EXPECT_EQ(test::http_get(server.port(), "/api/v1/scanners/rig/stop", who, "POST").status, 200);
+  EXPECT_TRUE(world.stopped());
+}
+
 TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
   const test::LocalServer server(kCrowdedRoutes);  // the server admits one export at a time
   test::HttpClient first(server.port());
@@ -135,18 +208,15 @@ TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
 }
 
 TEST(Overload, OneAddressHasAQuarterOfTheSeatsForExports) {
-  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
-                                 {.proxies = Networks::parse("127.0.0.1").value()}, nullptr, 4);
-  const auto from = [](const std::string& address) {
-    return "X-Forwarded-For: " + address + "\r\n";
-  };
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {}, behind_a_proxy(),
+                                 nullptr, 4);
   test::HttpClient first(server.port()), other(server.port());
-  first.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + from("192.0.2.1") + "\r\n");
+  first.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + sent_from("192.0.2.1") + "\r\n");
   entered.acquire();
-  const test::HttpAnswer refused = test::http_get(server.port(), "/slow", from("192.0.2.1"));
+  const test::HttpAnswer refused = test::http_get(server.port(), "/slow", sent_from("192.0.2.1"));
   EXPECT_EQ(refused.status, 429);
   EXPECT_EQ(refused.field("retry-after"), "5");
-  other.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + from("192.0.2.2") + "\r\n");
+  other.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + sent_from("192.0.2.2") + "\r\n");
   may_end.release(2);
   EXPECT_EQ(first.receive().status, 200);
   EXPECT_EQ(other.receive().status, 200);
@@ -154,8 +224,8 @@ TEST(Overload, OneAddressHasAQuarterOfTheSeatsForExports) {
 }
 
 TEST(Overload, AClientWithManyExportsDelaysThoseOfAnotherByOneOnly) {
-  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
-                                 {.proxies = Networks::parse("127.0.0.1").value()}, nullptr, 64);
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {}, behind_a_proxy(),
+                                 nullptr, 64);
   std::vector<std::unique_ptr<test::HttpClient>> clients;
   const auto ask = [&](const std::string& query, const std::string& address) {
     clients.push_back(std::make_unique<test::HttpClient>(server.port()));
@@ -231,7 +301,7 @@ TEST(Overload, WhatChangesModelsOrUploadsWaitsForTheDiskApart) {
       EXPECT_EQ(route.executor, Executor::kDisk) << route.path;
     }
     if (route.path.ends_with("/stop")) {
-      EXPECT_EQ(route.executor, Executor::kWorker);
+      EXPECT_EQ(route.executor, Executor::kUrgent);
     }
   }
 }

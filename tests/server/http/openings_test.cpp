@@ -64,14 +64,19 @@ TEST_F(RunningOpenings, RequestsForAFileFindItOpenBehindTheFirst) {
 TEST_F(RunningOpenings, AFileThatCannotBeOpenedIsTriedOnceForAllThatWait) {
   for (const bool throws : {false, true}) {
     std::atomic<int> attempts = 0;
+    std::promise<void> all_asked;
+    const std::shared_future<void> may_open = all_asked.get_future().share();
     answered = 0;
     for (int i = 0; i < 5; ++i) {
-      ask("a file", [&] {
+      ask("a file", [&, may_open] {
         ++attempts;
+        may_open.wait();
         if (throws) throw std::runtime_error("no memory");
         return false;
       });
     }
+    run_what_is_ready();
+    all_asked.set_value();
     io.run();
     io.restart();
     EXPECT_EQ(attempts, 1);

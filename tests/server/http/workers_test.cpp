@@ -31,15 +31,32 @@ TEST(Workers, ChecksRunWhileRequestsOccupyAllOtherThreads) {
   constexpr int kThreads = 2;
   Workers workers({.threads = kThreads});
   std::counting_semaphore<> may_end(0);
-  for (const Executor where :
-       {Executor::kWorker, Executor::kCompute, Executor::kDevice, Executor::kDisk}) {
+  for (const Executor where : {Executor::kWorker, Executor::kCompute, Executor::kDevice,
+                               Executor::kDisk, Executor::kUrgent}) {
     for (int i = 0; i < 2 * kThreads; ++i)
       asio::post(workers.executor(where), [&] { may_end.acquire(); });
   }
   std::promise<void> checked;
   asio::post(workers.checks(), [&] { checked.set_value(); });
   checked.get_future().wait();
-  may_end.release(4 * 2 * kThreads);
+  may_end.release(5 * 2 * kThreads);
+  workers.join();
+}
+
+TEST(Workers, ANetworkWithManySlowLookupsOfTokensDelaysNoLookupOfAnother) {
+  asio::io_context io;
+  Workers workers({});
+  std::counting_semaphore<> may_end(0);
+  const auto look_up = [&](const char* network, std::function<void()> task) {
+    asio::co_spawn(asio::make_strand(io), workers.look_up_token(network, std::move(task)),
+                   asio::detached);
+  };
+  constexpr int kSlow = 8;
+  for (int i = 0; i < kSlow; ++i)
+    look_up("a", [&] { may_end.acquire(); });
+  look_up("b", [&] { may_end.release(kSlow); });
+  io.run();
+  workers.stop();
   workers.join();
 }
 
