@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends signed requests to one bucket, and retries while the store is busy or unreachable.
+// Sends signed requests to one bucket, and retries while the store is busy or unreachable. Uploads
+// objects, in parts if they are long.
 #pragma once
 
 #include <atomic>
@@ -68,5 +69,13 @@ class S3Client {
   std::mutex mutex_;                                 // guards the members below
   std::vector<std::unique_ptr<RemoteServer>> idle_;  // open connections that are not in use
 };
+
+// Stores an object completely or not at all. Uses a multipart upload if it is longer than
+// `part_bytes`. Fails with kIo.
+Expected<void> s3_upload(S3Client& client, const std::string& key,
+                         std::span<const std::uint8_t> bytes, std::uint64_t part_bytes);
+
+// Aborts a multipart upload. Succeeds if the upload does not exist. Fails with kIo.
+Expected<void> s3_give_up(S3Client& client, const std::string& key, const std::string& upload);
 
 }  // namespace vitrine::server

@@ -11,7 +11,7 @@
 #include "server/content/percent_encoding.h"
 #include "server/store/local_copy.h"
 #include "server/store/s3_answers.h"
-#include "server/store/s3_upload.h"
+#include "server/store/s3_client.h"
 
 namespace vitrine::server {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/store/s3_upload.h"
+#include "server/store/s3_client.h"
 
 #include <fmt/core.h>
 

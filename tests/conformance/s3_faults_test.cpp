@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "server/store/s3_answers.h"
+#include "server/store/s3_client.h"
 #include "server/store/s3_store.h"
-#include "server/store/s3_upload.h"
 #include "support/held_lock.h"
 #include "support/process/ceph_gateway.h"
 #include "support/product_names.h"

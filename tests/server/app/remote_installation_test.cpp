@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "server/store/publish.h"
-#include "server/store/s3_upload.h"
+#include "server/store/s3_client.h"
 #include "support/process/daemon.h"
 #include "support/process/http_client.h"
 #include "support/process/run_program.h"
