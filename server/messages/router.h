@@ -84,7 +84,7 @@ enum class Executor : std::uint8_t {
 
 // A kGet route also answers HEAD requests. If a path has no kOptions route, the server itself
 // answers OPTIONS requests with the methods of the path.
-enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kOptions };
+enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kPut, kOptions };
 
 struct Route {
   Method method = Method::kGet;
@@ -101,7 +101,7 @@ struct Route {
   OpeningFinder opens = {};
   Executor executor = Executor::kInline;
   Role role = Role::kNone;  // the lowest role that a caller needs; kNone: no token is needed
-  // For POST and PATCH: true if the server parses the body as JSON, false if Response::sink
+  // For POST, PATCH and PUT: true if the server parses the body as JSON, false if Response::sink
   // receives the body.
   bool reads_body = true;
   // Whether this is the route of an emergency stop, which must not be delayed by rate limits or
