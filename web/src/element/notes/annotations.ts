@@ -1,15 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads notes on points of a model from a page's JSON file. The file is a list of
-// {"position": [x, y, z], "normal": [x, y, z], "title": "...", "text": "..."} in model coordinates,
-// or an object with that list as `annotations`. `normal` and `text` are optional.
+// Reads notes on points of a model, and tours through them.
+//
+// A page's own file of notes is a list of {"position": [x, y, z], "normal": [x, y, z], "title": "...", "text": "..."} in model
+// coordinates, or an object with that list as `annotations`. `normal` and `text` are optional. The daemon's notes and tours are
+// described by the schemas Note and Tour of its API.
 
 export type Triple = [number, number, number];
 
-export interface Annotation {
+/** A view in model coordinates, so that it stays the same if the presentation of the model changes. */
+export interface NoteView {
+  /** From the target to the eye. */
+  direction: Triple;
+  /** The point in the middle of the view. Missing: the centre of the model. */
+  target?: Triple;
+  /** 1 shows the whole model. */
+  zoom?: number;
+}
+
+export interface NoteText {
+  title: string;
+  text?: string;
+  alt?: string;
+  audio?: string;
+}
+
+/** A note as the daemon stores it. */
+export interface StoredNote {
+  id: string;
+  position: Triple;
+  normal?: Triple;
+  texts: Record<string, NoteText>;
+  picture?: string;
+  view?: NoteView;
+  /** Settings of the tools, as in links. */
+  light?: string;
+  section?: string;
+}
+
+/** A tour as the daemon stores it. */
+export interface StoredTour {
+  id: string;
+  titles: Record<string, string>;
+  steps: { note: string; seconds?: number; transition?: "fly" | "cut" }[];
+}
+
+/** A note in one language. */
+export interface Annotation extends Partial<Pick<StoredNote, "id" | "picture" | "view" | "light" | "section">> {
   position: Triple;
   normal: Triple | undefined;
   title: string;
   text: string;
+  alt?: string;
+  audio?: string;
+  /** The language of the texts, if known. */
+  language?: string;
 }
 
 /**
@@ -32,4 +76,24 @@ export function readAnnotations(json: unknown): Annotation[] {
     const { normal, text } = entry;
     return { position, normal: triple(normal), title, text: typeof text === "string" ? text : "" };
   });
+}
+
+/**
+ * Chooses the entry for a language tag: that of the tag itself, else one of the same language, else English, else the
+ * first. Returns its tag, or undefined if there is no entry.
+ */
+export function languageIn(entries: Record<string, unknown>, wanted: string): string | undefined {
+  const tags = Object.keys(entries), primary = (tag: string) => tag.toLowerCase().split("-")[0];
+  return tags.find((tag) => tag.toLowerCase() === wanted.toLowerCase()) ?? tags.find((tag) => primary(tag) === primary(wanted))
+    ?? tags.find((tag) => primary(tag) === "en") ?? tags[0];
+}
+
+/** Returns a note of the daemon in the language `wanted`, or in another if it lacks this one. */
+export function inLanguage({ id, position, normal, texts, picture, view, light, section }: StoredNote, wanted: string): Annotation {
+  const language = languageIn(texts, wanted), words = language === undefined ? { title: "" } : (texts[language] as NoteText);
+  return {
+    id, position, normal, title: words.title, text: words.text ?? "",
+    ...(words.alt && { alt: words.alt }), ...(words.audio && { audio: words.audio }), ...(language && { language }),
+    ...(picture && { picture }), ...(view && { view }), ...(light !== undefined && { light }), ...(section !== undefined && { section }),
+  };
 }
