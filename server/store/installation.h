@@ -11,6 +11,7 @@
 
 #include "server/catalogue/catalogue.h"
 #include "server/catalogue/jobs.h"
+#include "server/catalogue/notes.h"
 #include "server/catalogue/sql.h"
 #include "server/catalogue/visits.h"
 #include "server/store/object_store.h"

@@ -66,6 +66,8 @@ TEST_F(NotesApi, WhatIsPutIsRead) {
   EXPECT_EQ(put("/tours", tours, operator_).status, 200);
   EXPECT_EQ(shown(api_ + "/tours"), tours);
   EXPECT_EQ(shown(api_)["links"]["notes"], api_ + "/notes");
+  const HttpAnswer methods = test::http_get(server_.port(), api_ + "/notes", "", "OPTIONS");
+  EXPECT_EQ(methods.field("allow"), "GET, HEAD, PUT, OPTIONS");
 }
 
 TEST_F(NotesApi, ChangeNeedsAnOperatorAndTheStateThatWasRead) {

@@ -110,7 +110,8 @@ export class NotesEditor {
   }
 
   #putInMiddle(): Promise<void> {
-    const { left, top, width, height } = (this.options.stage.querySelector("progressive-mesh") as Element).getBoundingClientRect();
+    const canvas = this.options.stage.querySelector("progressive-mesh")?.shadowRoot?.querySelector("canvas");
+    const { left, top, width, height } = (canvas ?? this.options.stage).getBoundingClientRect();
     return this.#put(left + width / 2, top + height / 2);
   }
 
