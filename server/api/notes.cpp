@@ -294,6 +294,6 @@ static constexpr ApiRoute kNoteRoutes[] = {
              .may_be_gzip = true}},
 };
 
-const ApiNoun kNotes = {.routes = kNoteRoutes, .components = kNotesComponents};
+const ApiNoun kAnnotations = {.routes = kNoteRoutes, .components = kNotesComponents};
 
 }  // namespace vitrine::server
