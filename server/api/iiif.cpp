@@ -66,7 +66,14 @@ Json picture(const std::string& model, unsigned width) {
           {"height", width}};
 }
 
-Json canvas(const std::string& self, const std::string& model) {
+// Refers to the page with the model's notes, if there are any.
+void add_annotations(Json& container, const std::string& self, const ModelRecord& record) {
+  if (record.notes == 0) return;
+  container["annotations"] =
+      Json::array({{{"id", self + "/annotations.json"}, {"type", "AnnotationPage"}}});
+}
+
+Json canvas(const std::string& self, const std::string& model, const ModelRecord& record) {
   const std::string id = self + "/canvas";
   const Json painting = {{"id", id + "/poster/annotation"},
                          {"type", "Annotation"},
@@ -75,11 +82,13 @@ Json canvas(const std::string& self, const std::string& model) {
                          {"target", id}};
   const Json page = {
       {"id", id + "/poster"}, {"type", "AnnotationPage"}, {"items", Json::array({painting})}};
-  return {{"id", id},
-          {"type", "Canvas"},
-          {"width", kCanvasWidth},
-          {"height", kCanvasWidth},
-          {"items", Json::array({page})}};
+  Json json = {{"id", id},
+               {"type", "Canvas"},
+               {"width", kCanvasWidth},
+               {"height", kCanvasWidth},
+               {"items", Json::array({page})}};
+  add_annotations(json, self, record);
+  return json;
 }
 
 Json renderings(const std::string& model) {
@@ -181,6 +190,7 @@ Json scene(const std::string& self, const std::string& model, const ModelRecord&
   if (!record.unit.empty())
     json["spatialScale"] = {{"type", "Quantity"}, {"quantityValue", 1.0}, {"unit", "m"}};
   json["items"] = Json::array({std::move(page)});
+  add_annotations(json, self, record);
   return json;
 }
 
@@ -252,7 +262,7 @@ static Response show_iiif_manifest(const Request& request, Services& services) {
     const std::string origin = origin_of(request, services), id = model->record().id.to_string();
     const std::string self = origin + "/api/v1/iiif/" + id;
     Json json = description(model->record(), origin, kContext3, self);
-    json["items"] = Json::array({canvas(self, origin + "/api/v1/models/" + id)});
+    json["items"] = Json::array({canvas(self, origin + "/api/v1/models/" + id, model->record())});
     return iiif_answer(json);
   });
 }

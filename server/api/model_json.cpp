@@ -52,6 +52,8 @@ Json model(const ModelRecord& record, const ModelView& view) {
                  {"head", self + "/head"},
                  {"file", self + "/file.pmesh"},
                  {"stream", self + "/stream"},
+                 {"notes", self + "/notes"},
+                 {"tours", self + "/tours"},
                  {"poster", self + "/poster.png"}}}};
   if (view.has_token) json["repairs"] = lines_of(record.repairs);
   if (view.counts_visits && record.state == ModelState::kPublished)

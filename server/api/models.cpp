@@ -26,13 +26,15 @@ Response stored(const std::shared_ptr<const PublishedModel>& model, ByteRange ra
   return response;
 }
 
-// Returns the head of the model's file. If the model has a presentation, the field
-// Vitrine-Presentation states it, so that viewers need no second request.
+// Returns the head of the model's file. If the model has a presentation or notes, the field
+// Vitrine-Presentation states this, so that viewers need no second request.
 Response head_of(const std::shared_ptr<const PublishedModel>& model) {
   const Presentation& presentation = model->record().presentation;
-  std::string text = client_text(presentation);
+  const std::uint64_t notes = model->record().notes;
+  std::string text = client_text(presentation, notes);
   if (text.empty()) return stored(model, model->head(), "-head");
-  Response response = stored(model, model->head(), "-head-" + key_of(presentation));
+  Response response =
+      stored(model, model->head(), fmt::format("-head-{}-{}", key_of(presentation), notes));
   response.fields = {{"Vitrine-Presentation", std::move(text)}};
   return response;
 }
@@ -248,9 +250,9 @@ static constexpr std::string_view kModelsComponents = R"json({
         "largest_side": {"type": "integer", "description": "Largest width and height in pixels"},
         "bytes": {"type": "integer", "description": "Size of all pictures, in all sizes"}}},
       "repairs": {"type": "array", "items": {"type": "string"}, "description": "What the build of the file changed or left out; missing for clients without a token"},
-      "links": {"type": "object", "description": "Paths on this server", "required": ["self", "page", "manifest", "head", "file", "stream", "poster"], "properties": {
+      "links": {"type": "object", "description": "Paths on this server", "required": ["self", "page", "manifest", "head", "file", "stream", "notes", "tours", "poster"], "properties": {
         "self": {"type": "string"}, "page": {"type": "string"}, "manifest": {"type": "string"}, "head": {"type": "string"},
-        "file": {"type": "string"}, "stream": {"type": "string"}, "poster": {"type": "string"},
+        "file": {"type": "string"}, "stream": {"type": "string"}, "notes": {"type": "string"}, "tours": {"type": "string"}, "poster": {"type": "string"},
         "visits": {"type": "string", "description": "Where viewers report visits; missing if the server does not count them"}}}}},
   "Presentation": {"type": "object", "description": "How the model is presented. Viewers, exports, posters and dimensions obey it",
     "properties": {

@@ -37,6 +37,8 @@ std::string_view name_of(Method method) {
       return "patch";
     case Method::kDelete:
       return "delete";
+    case Method::kPut:
+      return "put";
     case Method::kOptions:
       break;
   }

@@ -8,10 +8,11 @@ namespace {
 
 // All resources of the API, in the order in which the OpenAPI document lists them. The router
 // matches paths in the same order.
-constexpr std::array kNouns = {
-    &kCommon,   &kChunks,       &kModels, &kStreams, &kExports, &kTileset,     &kPosters,
-    &kIiif,     &kRecords,      &kOai,    &kOembed,  &kOpenapi, &kModelOrders, &kVisits,
-    &kScanners, &kCalibrations, &kScans,  &kJobs,    &kUploads, &kTokens,      &kPages};
+constexpr std::array kNouns = {&kCommon,   &kChunks,       &kModels,      &kStreams,     &kExports,
+                               &kTileset,  &kPosters,      &kIiif,        &kRecords,     &kOai,
+                               &kOembed,   &kOpenapi,      &kModelOrders, &kAnnotations, &kVisits,
+                               &kScanners, &kCalibrations, &kScans,       &kJobs,        &kUploads,
+                               &kTokens,   &kPages};
 
 }  // namespace
 

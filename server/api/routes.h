@@ -28,8 +28,8 @@ struct ApiNoun {
 };
 
 extern const ApiNoun kCommon, kChunks, kModels, kStreams, kExports, kTileset, kPosters, kIiif,
-    kRecords, kOai, kOembed, kOpenapi, kModelOrders, kVisits, kScanners, kCalibrations, kScans,
-    kJobs, kUploads, kTokens, kPages;
+    kRecords, kOai, kOembed, kOpenapi, kModelOrders, kAnnotations, kVisits, kScanners,
+    kCalibrations, kScans, kJobs, kUploads, kTokens, kPages;
 
 std::span<const ApiNoun* const> public_nouns();
 std::span<const ApiRoute> public_routes();

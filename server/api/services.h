@@ -12,6 +12,7 @@
 #include "server/api/web_pages.h"
 #include "server/auth/authenticator.h"
 #include "server/catalogue/catalogue.h"
+#include "server/catalogue/notes.h"
 #include "server/catalogue/visit_counter.h"
 #include "server/config/live_settings.h"
 #include "server/export/export_cache.h"
@@ -45,6 +46,7 @@ struct Services {
   const LiveSettings& settings;
   Metrics& metrics;
   VisitCounter& visits;
+  NoteCatalogue& notes;
   const Log& log;     // access log
   const Log& errors;  // log of events that operators must know about
   std::atomic<bool> is_ready{false};

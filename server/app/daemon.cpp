@@ -50,8 +50,7 @@ constexpr std::chrono::milliseconds kStaleness{100};  // how long cached models 
 // How often cached models are checked, even without requests.
 constexpr std::chrono::milliseconds kModelCheckEvery{500};
 constexpr std::chrono::seconds kScannerLease{30};
-// How often counted visits are written to the catalogue. If the daemon is killed, the visits since
-// the last write are lost.
+// How often counted visits are written. A killed daemon loses the visits since the last write.
 constexpr std::chrono::seconds kVisitFlushEvery{10};
 // Webhooks that the settings do not allow are dropped this long after their jobs have ended.
 constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);
@@ -174,6 +173,7 @@ class Daemon {
                   .settings = live_,
                   .metrics = metrics_,
                   .visits = visits_,
+                  .notes = *installation_.notes,
                   .log = access_log_,
                   .errors = events_},
         connections_(connections_within_limit(live_.get().max_connections)),

@@ -60,6 +60,8 @@ struct ModelRecord {
   // or if they are unknown.
   std::string repairs = {};
   Presentation presentation = {};
+  // Number of notes, which NoteCatalogue::put() changes. Catalogue::add() and update() ignore it.
+  std::uint64_t notes = 0;
 };
 
 // A file in the object store that a model refers to.

@@ -25,6 +25,7 @@ constexpr Table kTables[] = {
      "texture_bytes, public_texture_count, public_texture_side, public_texture_bytes, repairs, "
      "presentation"},
     {"chunk", "sha256, model", "sha256, model, \"offset\", length"},
+    {"annotation", "model, kind", "model, kind, version, entries, text"},
     {"visit", "model, day", "model, day, visits, seconds, levels, complete"},
     {"job", "id",
      "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "

@@ -178,6 +178,17 @@ CREATE TRIGGER note_change BEFORE INSERT OR UPDATE ON model_index
     R"sql(
 ALTER TABLE model ADD COLUMN presentation TEXT NOT NULL DEFAULT '';
 )sql",
+    // The notes of models and the tours through them, as JSON. Their changes count as changes of
+    // models.
+    R"sql(
+CREATE TABLE annotation (
+  model BYTEA NOT NULL REFERENCES model(id) ON DELETE CASCADE, kind BIGINT NOT NULL,
+  version BIGINT NOT NULL, entries BIGINT NOT NULL, text TEXT NOT NULL,
+  PRIMARY KEY (model, kind)
+);
+CREATE TRIGGER count_change AFTER INSERT OR UPDATE ON annotation
+  FOR EACH STATEMENT EXECUTE FUNCTION count_change();
+)sql",
 };
 constexpr std::int64_t kSince = 1;
 constexpr const char* kOneAtATime = "SELECT pg_advisory_lock(7957706764961114213)";

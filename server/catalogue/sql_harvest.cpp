@@ -60,16 +60,16 @@ HarvestQuery from_cursor(HarvestQuery query) {
 
 Harvest harvest_models(DatabaseConnection& connection, const HarvestQuery& asked) {
   const HarvestQuery query = from_cursor(asked);
-  // The index of the column after those of kModelColumns.
-  constexpr int kChanged = 1 + static_cast<int>(std::ranges::count(kModelColumns, ','));
+  // The index of the column after those of kModelColumns and kFurtherColumns.
+  constexpr int kChanged = 2 + static_cast<int>(std::ranges::count(kModelColumns, ','));
   const std::string found = fmt::format(
       "SELECT model AS of_model, changed FROM model_index WHERE {}{} "
       "ORDER BY changed, model LIMIT ?",
       harvest_condition(query), query.after ? " AND (changed, model) > (?, ?)" : "");
   const ScopedStatement rows(connection.prepare(
-      fmt::format("SELECT {}, changed FROM model JOIN ({}) AS found ON id = of_model "
+      fmt::format("SELECT {}, {}, changed FROM model JOIN ({}) AS found ON id = of_model "
                   "ORDER BY changed, id",
-                  kModelColumns, found)));
+                  kModelColumns, kFurtherColumns, found)));
   bind_condition(*rows, query);
   if (query.after) rows->bind(query.after->changed).bind(query.after->model.bytes());
   rows->bind(std::int64_t{std::clamp(query.limit, 1u, kMaxPage)});

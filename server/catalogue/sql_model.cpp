@@ -64,6 +64,7 @@ ModelRecord read_model(const Statement& row) {
   model.textures = read_textures(row, 22);
   model.repairs = row.text(28);
   model.presentation = from_stored_text(row.text(29));
+  if (!row.is_null(30)) model.notes = count(row, 30);
   return model;
 }
 
@@ -108,7 +109,7 @@ void bind_model(Statement& row, const ModelRecord& m) {
 }
 
 std::string select_models(std::string_view which) {
-  return fmt::format("SELECT {} FROM model WHERE {}", kModelColumns, which);
+  return fmt::format("SELECT {}, {} FROM model WHERE {}", kModelColumns, kFurtherColumns, which);
 }
 
 }  // namespace vitrine::server

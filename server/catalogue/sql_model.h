@@ -14,8 +14,12 @@ inline constexpr std::string_view kModelColumns =
     "public_head_bytes, public_faces, public_vertices, texture_count, texture_side, texture_bytes, "
     "public_texture_count, public_texture_side, public_texture_bytes, repairs, presentation";
 
-// Returns a SELECT statement for kModelColumns. `which` is the text after WHERE: a condition, and
-// further clauses.
+// The columns of a model that other tables determine. They follow kModelColumns in each SELECT.
+inline constexpr std::string_view kFurtherColumns =
+    "(SELECT entries FROM annotation WHERE annotation.model = model.id AND kind = 0)";
+
+// Returns a SELECT statement for kModelColumns and kFurtherColumns. `which` is the text after
+// WHERE: a condition, and further clauses.
 std::string select_models(std::string_view which);
 
 ModelRecord read_model(const sql::Statement& row);

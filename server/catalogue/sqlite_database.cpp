@@ -251,6 +251,20 @@ CREATE INDEX model_guard ON model(
   public_head_bytes, public_faces, public_vertices, texture_count, texture_side, texture_bytes,
   public_texture_count, public_texture_side, public_texture_bytes, repairs, presentation);
 )sql",
+    // The notes of models and the tours through them, as JSON. Their changes count as changes of
+    // models.
+    R"sql(
+CREATE TABLE annotation (
+  model BLOB NOT NULL REFERENCES model(id) ON DELETE CASCADE, kind INTEGER NOT NULL,
+  version INTEGER NOT NULL, entries INTEGER NOT NULL, text TEXT NOT NULL,
+  PRIMARY KEY (model, kind)
+) WITHOUT ROWID;
+CREATE INDEX annotation_guard ON annotation(version, entries, text);
+CREATE TRIGGER annotation_added AFTER INSERT ON annotation
+  BEGIN UPDATE revision SET number = number + 1; END;
+CREATE TRIGGER annotation_changed AFTER UPDATE ON annotation
+  BEGIN UPDATE revision SET number = number + 1; END;
+)sql",
 };
 // Programs made for tables before version 8 cannot use the newest tables.
 constexpr std::int64_t kSince = 8;

@@ -34,6 +34,8 @@ std::optional<Method> method_of(verb method) {
       return Method::kPatch;
     case verb::delete_:
       return Method::kDelete;
+    case verb::put:
+      return Method::kPut;
     case verb::options:
       return Method::kOptions;
     default:
@@ -87,7 +89,7 @@ void allow_all(const RequestHeader& header, Response& response) {
                 [](const auto& field) { return field.first.starts_with("Access"); });
   response.fields.insert(
       response.fields.end(),
-      {{"Access-Control-Allow-Methods", "GET, HEAD, POST, PATCH, DELETE, OPTIONS"},
+      {{"Access-Control-Allow-Methods", "GET, HEAD, POST, PUT, PATCH, DELETE, OPTIONS"},
        {"Access-Control-Allow-Headers", std::string(wanted)},
        {"Access-Control-Max-Age", "600"}});
 }
@@ -112,7 +114,9 @@ std::string owner_of(const Exchange& exchange) {
 }
 
 bool takes_body(const Route& route, BodyKind kind) {
-  return route.body == kind && (route.method == Method::kPost || route.method == Method::kPatch);
+  const bool sends = route.method == Method::kPost || route.method == Method::kPatch ||
+                     route.method == Method::kPut;
+  return route.body == kind && sends;
 }
 
 // If the route can answer from memory, sets the response and returns true.

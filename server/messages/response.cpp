@@ -43,10 +43,12 @@ std::string_view date_field() {
 
 // Header fields of HTML pages. Their content security policy allows only scripts, workers,
 // WebAssembly and connections of the daemon itself ('self' includes WebSockets). Markup in a
-// model's title can therefore neither run scripts nor send data to other hosts.
+// model's title can therefore not run scripts. Pictures and sounds may come from other hosts by
+// HTTPS, because notes on models refer to them.
 constexpr std::string_view kPagePolicy =
     "Content-Security-Policy: default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; "
-    "worker-src 'self' blob:; style-src 'self'; img-src 'self' blob: data:; "
+    "worker-src 'self' blob:; style-src 'self'; img-src 'self' blob: data: https:; "
+    "media-src 'self' https:; "
     "connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'self'";
 
 // Continues kPagePolicy for pages that no other site may show in a frame (clickjacking), because

@@ -16,6 +16,8 @@ std::string_view allowed_by(Method method) {
       return "PATCH, ";
     case Method::kDelete:
       return "DELETE, ";
+    case Method::kPut:
+      return "PUT, ";
     case Method::kOptions:
       break;  // OPTIONS is not listed, because every path allows it
   }
@@ -89,7 +91,8 @@ std::optional<std::size_t> Router::find(const RouteMatch& match, Method method) 
 
 std::string Router::allow(const RouteMatch& match) const {
   std::string methods;
-  for (const Method method : {Method::kGet, Method::kPost, Method::kPatch, Method::kDelete}) {
+  for (const Method method :
+       {Method::kGet, Method::kPost, Method::kPut, Method::kPatch, Method::kDelete}) {
     if (find(match, method)) methods += allowed_by(method);
   }
   return methods + "OPTIONS";

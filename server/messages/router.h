@@ -87,9 +87,9 @@ enum class Executor : std::uint8_t {
 
 // A kGet route also answers HEAD requests. If a path has no kOptions route, the server itself
 // answers OPTIONS requests with the methods of the path.
-enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kOptions };
+enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kPut, kOptions };
 
-// How the server treats the body of a POST or PATCH request.
+// How the server treats the body of a POST, PATCH or PUT request.
 enum class BodyKind : std::uint8_t {
   kJson,    // parses it as JSON into Request::body
   kForm,    // reads it into Request::form, encoded like a query

@@ -9,14 +9,14 @@
 #include <numbers>
 
 #include "codec/core/sha256.h"
+#include "server/metadata/members.h"
 
 namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kMostLength = 1e12;  // largest coordinate of a point
-constexpr double kRounding = 1e-9;    // difference from 0 or 1 that rounding explains
+constexpr double kRounding = 1e-9;  // difference from 0 or 1 that rounding explains
 
 // Rounds an entry of a rotation matrix to 0, 1 or -1 if only rounding keeps it from that.
 double rounded_entry(double entry) {
@@ -24,76 +24,11 @@ double rounded_entry(double entry) {
   return std::abs(entry - whole) < kRounding ? whole + 0.0 : entry;
 }
 
-// Returns the numbers of a JSON array, or nullopt if it has not N numbers from -most to most.
-template <std::size_t N>
-std::optional<std::array<double, N>> numbers(const Json& json, double most) {
-  std::array<double, N> out{};
-  if (!json.is_array() || json.size() != N) return std::nullopt;
-  for (std::size_t i = 0; i < N; ++i) {
-    if (!json[i].is_number()) return std::nullopt;
-    out[i] = json[i].get<double>();
-    if (!(std::abs(out[i]) <= most)) return std::nullopt;
-  }
-  return out;
-}
-
-std::optional<Vec3> point(const Json& json) {
-  const auto p = numbers<3>(json, kMostLength);
-  return p ? std::optional(Vec3{(*p)[0], (*p)[1], (*p)[2]}) : std::nullopt;
-}
-
-// Reads the members of an object. A null restores the value of the default object.
-class Members {
- public:
-  Members(const Json& object, std::string prefix, const WrongField& wrong)
-      : object_(object), prefix_(std::move(prefix)), wrong_(wrong) {}
-
-  void only(std::initializer_list<std::string_view> known) const {
-    for (const auto& [name, value] : object_.items()) {
-      if (std::ranges::find(known, name) == known.end())
-        wrong_(prefix_ + name, fmt::format("one of {}", fmt::join(known, ", ")));
-    }
-  }
-  const Json* find(const char* name) const {
-    const auto found = object_.find(name);
-    return found == object_.end() ? nullptr : &*found;
-  }
-  void wrong(const char* name, const std::string& expected) const {
-    wrong_(prefix_ + name, expected);
-  }
-  void real(const char* name, double low, double high, double usual, double& value) const {
-    const Json* given = find(name);
-    if (given == nullptr) return;
-    if (given->is_null()) {
-      value = usual;
-    } else if (given->is_number() && *given >= low && *given <= high) {
-      value = given->get<double>();
-    } else {
-      wrong(name, fmt::format("a number from {} to {}", low, high));
-    }
-  }
-  // Reads an object by `read(members, value)`. A null removes the value.
-  template <class Value, class Read>
-  void object(const char* name, std::optional<Value>& value, const Read& read) const {
-    const Json* given = find(name);
-    if (given == nullptr) return;
-    if (given->is_null()) return value.reset();
-    if (!given->is_object()) return wrong(name, "an object or null");
-    if (!value) value.emplace();
-    read(Members(*given, prefix_ + name + '.', wrong_), *value);
-  }
-
- private:
-  const Json& object_;
-  const std::string prefix_;
-  const WrongField& wrong_;
-};
-
-void read_rotation(const Members& members, std::array<double, 4>& rotation) {
+void read_rotation(const JsonMembers& members, std::array<double, 4>& rotation) {
   const Json* given = members.find("rotation");
   if (given == nullptr) return;
   auto q = given->is_null() ? Presentation{}.rotation
-                            : numbers<4>(*given, 1.01).value_or(std::array<double, 4>{});
+                            : json_numbers<4>(*given, 1.01).value_or(std::array<double, 4>{});
   double norm = 0;
   for (const double part : q)
     norm += part * part;
@@ -106,7 +41,7 @@ void read_rotation(const Members& members, std::array<double, 4>& rotation) {
   rotation = q;
 }
 
-void read_view(const Members& members, PresentedView& view) {
+void read_view(const JsonMembers& members, PresentedView& view) {
   constexpr PresentedView kUsual;
   members.only({"azimuth", "elevation", "zoom", "target"});
   members.real("azimuth", -360, 360, kUsual.azimuth, view.azimuth);
@@ -114,12 +49,12 @@ void read_view(const Members& members, PresentedView& view) {
   members.real("zoom", 0.1, 100, kUsual.zoom, view.zoom);
   const Json* target = members.find("target");
   if (target == nullptr) return;
-  view.target = point(*target);
+  view.target = json_point(*target);
   if (!view.target && !target->is_null())
     members.wrong("target", "three numbers x, y, z, or null for the centre of the model");
 }
 
-void read_light(const Members& members, PresentedLight& light) {
+void read_light(const JsonMembers& members, PresentedLight& light) {
   members.only({"preset", "angle"});
   members.real("angle", 0, 360, PresentedLight{}.angle, light.angle);
   const Json* preset = members.find("preset");
@@ -130,9 +65,9 @@ void read_light(const Members& members, PresentedLight& light) {
     members.wrong("preset", fmt::format("one of {}", fmt::join(kLightPresets, ", ")));
 }
 
-void read_box(const Members& members, std::optional<Bounds>& box) {
+void read_box(const JsonMembers& members, std::optional<Bounds>& box) {
   const Json* given = members.find("turned_box");
-  const auto corners = given != nullptr ? numbers<6>(*given, 1e300) : std::nullopt;
+  const auto corners = given != nullptr ? json_numbers<6>(*given, 1e300) : std::nullopt;
   if (!corners) return;
   const auto& c = *corners;
   box = Bounds{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
@@ -206,7 +141,7 @@ void read_presentation(const Json& patch, Presentation& presentation, const Wron
                        bool is_stored) {
   if (patch.is_null()) return void(presentation = {});
   if (!patch.is_object()) return wrong("", "an object or null");
-  const Members members(patch, "", wrong);
+  const JsonMembers members(patch, "", wrong);
   if (is_stored)
     read_box(members, presentation.turned_box);
   else
@@ -229,8 +164,11 @@ nlohmann::ordered_json to_json(const Presentation& presentation) {
           {"light", std::move(light)}};
 }
 
-std::string client_text(const Presentation& presentation) {
-  return presentation.is_default() ? std::string() : to_json(presentation).dump();
+std::string client_text(const Presentation& presentation, std::uint64_t notes) {
+  if (presentation.is_default() && notes == 0) return {};
+  nlohmann::ordered_json json = to_json(presentation);
+  if (notes > 0) json["notes"] = notes;
+  return json.dump();
 }
 
 std::string key_of(const Presentation& presentation) {

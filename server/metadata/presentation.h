@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -93,8 +94,9 @@ void read_presentation(const nlohmann::json& patch, Presentation& presentation,
 // Returns the presentation as clients see it.
 nlohmann::ordered_json to_json(const Presentation& presentation);
 
-// Returns the JSON text that clients get with a model's head. Empty for the default presentation.
-std::string client_text(const Presentation& presentation);
+// Returns the JSON text that clients get with a model's head. If the model has notes, the text also
+// states their number. Empty for the default presentation without notes.
+std::string client_text(const Presentation& presentation, std::uint64_t notes = 0);
 
 // Returns a short text that differs between presentations, for cache keys and entity tags.
 std::string key_of(const Presentation& presentation);

@@ -130,6 +130,7 @@ Expected<Installation> open_installation(const InstallationPlace& place) {
                       .store = std::move(*store),
                       .catalogue = make_catalogue(catalogue->database),
                       .jobs = make_jobs(catalogue->jobs),
+                      .notes = make_notes(catalogue->database),
                       .visits = make_visits(catalogue->jobs),
                       .database = catalogue->database};
 }

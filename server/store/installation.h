@@ -11,6 +11,7 @@
 
 #include "server/catalogue/catalogue.h"
 #include "server/catalogue/jobs.h"
+#include "server/catalogue/notes.h"
 #include "server/catalogue/sql.h"
 #include "server/catalogue/visits.h"
 #include "server/store/object_store.h"
@@ -33,6 +34,7 @@ struct Installation {
   std::unique_ptr<ObjectStore> store;
   std::unique_ptr<Catalogue> catalogue;
   std::unique_ptr<JobCatalogue> jobs;       // the jobs and scans, in `database`
+  std::unique_ptr<NoteCatalogue> notes;     // the notes and tours, in `database`
   std::unique_ptr<VisitCatalogue> visits;   // the counts of visits, in `database`
   std::shared_ptr<sql::Database> database;  // the catalogue's database
 };

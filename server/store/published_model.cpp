@@ -211,14 +211,16 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   return {};
 }
 
-// Returns the models whose versions in the catalogue have not changed.
+// Returns the models whose records in the catalogue have not changed.
 Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
     const std::vector<ModelPointer>& models) {
   std::vector<const PublishedModel*> kept;
   for (const ModelPointer& model : models) {
     const auto record = catalogue_.find(model->record().id);
     if (!record) return tl::unexpected(record.error());
-    if (*record && (*record)->version == model->record().version) kept.push_back(model.get());
+    const bool is_same = *record && (*record)->version == model->record().version &&
+                         (*record)->notes == model->record().notes;
+    if (is_same) kept.push_back(model.get());
   }
   return kept;
 }

@@ -164,13 +164,14 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     const Manifest& manifest = model->manifest();
     if (auto opened = state_.open(wanted.model, manifest, wanted.wants_head); !opened)
       return opened;
-    const ModelMessage message{.model = wanted.model,
-                               .sha256 = to_hex(model->record().file),
-                               .chunks = manifest.chunks.size(),
-                               .head_bytes = manifest.head_bytes(),
-                               .slice_bytes = kMaxSlice,
-                               .credit = state_.credit(),
-                               .presentation = client_text(model->record().presentation)};
+    const ModelMessage message{
+        .model = wanted.model,
+        .sha256 = to_hex(model->record().file),
+        .chunks = manifest.chunks.size(),
+        .head_bytes = manifest.head_bytes(),
+        .slice_bytes = kMaxSlice,
+        .credit = state_.credit(),
+        .presentation = client_text(model->record().presentation, model->record().notes)};
     models_[wanted.model] = std::move(model);
     tell_models();
     return answer(message);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "server/catalogue/catalogue.h"
+#include "server/catalogue/notes.h"
 #include "server/catalogue/visits.h"
 #include "support/product_names.h"
 
@@ -15,6 +16,7 @@ class CatalogueBackend {
   virtual ~CatalogueBackend() = default;
   // Opens a new connection to the same catalogue, which is empty at first.
   virtual std::unique_ptr<Catalogue> connect() = 0;
+  virtual std::unique_ptr<NoteCatalogue> connect_notes() = 0;
   virtual std::unique_ptr<VisitCatalogue> connect_visits() = 0;
 };
 

@@ -14,6 +14,9 @@ class Postgres final : public CatalogueBackend {
   std::unique_ptr<Catalogue> connect() override {
     return make_catalogue(postgres::open_database(database_).value().database);
   }
+  std::unique_ptr<NoteCatalogue> connect_notes() override {
+    return make_notes(postgres::open_database(database_).value().database);
+  }
   std::unique_ptr<VisitCatalogue> connect_visits() override {
     return make_visits(postgres::open_database(database_).value().database);
   }

@@ -14,6 +14,9 @@ class Sqlite final : public CatalogueBackend {
   std::unique_ptr<Catalogue> connect() override {
     return open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
   }
+  std::unique_ptr<NoteCatalogue> connect_notes() override {
+    return make_notes(server::sqlite::open_database(folder_.path() / "catalogue.sqlite").value());
+  }
   std::unique_ptr<VisitCatalogue> connect_visits() override {
     return make_visits(server::sqlite::open_database(folder_.path() / "catalogue.sqlite").value());
   }

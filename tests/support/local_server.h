@@ -147,6 +147,7 @@ class LocalServer {
                      .settings = settings_,
                      .metrics = metrics_,
                      .visits = visits_,
+                     .notes = *installation_.notes,
                      .log = log_,
                      .errors = events_,
                      .is_ready = true};

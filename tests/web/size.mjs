@@ -11,7 +11,7 @@ const kMost = 180_000;
 const dist = process.argv[2];
 // Files that are loaded after the first paint, or that are used instead of the element.
 const kAfterwards = [
-  "toolbox", "room", "contact-shadow", "profile", "qr-code", "augmented-reality", "loader",
+  "toolbox", "room", "contact-shadow", "profile", "qr-code", "note-reader", "augmented-reality", "loader",
 ].map((name) => `progressive-mesh-${name}.js`);
 // Matches files with the texts of one language. A visitor loads only one of these files.
 const kLanguage = /^progressive-mesh-[a-z]{2}\.js$/;

@@ -357,7 +357,7 @@ class Matrix {
   std::map<std::string, std::map<std::string, int>> rows_;
 };
 
-constexpr const char* kMethods[] = {"GET", "POST", "PATCH", "DELETE"};
+constexpr const char* kMethods[] = {"GET", "POST", "PATCH", "DELETE", "PUT"};
 constexpr const char* kRoles[] = {"visitor", "viewer", "operator", "admin"};
 
 class Walk {

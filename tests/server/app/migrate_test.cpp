@@ -39,7 +39,8 @@ Told told_by(Installation& installation) {
   Told told;
   const auto models = installation.catalogue->search({.includes_drafts = true}).value().models;
   for (const ModelRecord& m : models) {
-    told.models.push_back(m.id.to_string() + m.title + m.creator + m.more.at("date") +
+    const NoteSheet notes = installation.notes->find(m.id, NoteKind::kNotes).value();
+    told.models.push_back(m.id.to_string() + m.title + m.creator + m.more.at("date") + notes.text +
                           to_hex(m.file) + std::to_string(m.version) + std::to_string(m.created));
     const auto object = installation.store->open(m.file).value();
     EXPECT_EQ(sha256(object->read(0, object->size()).value()), m.file);
@@ -65,6 +66,7 @@ class Migrate : public testing::Test {
   void fill() {
     const ModelId vase = publish_at(folder_, "vase");
     ASSERT_TRUE(folder_.visits->add({{{vase, {}}, {.visits = 5}}}));
+    ASSERT_TRUE(folder_.notes->put(vase, NoteKind::kNotes, {.entries = 3, .text = "[1,2,3]"}));
     publish_at(folder_, "bowl");
     const JobRecord told{.id = JobId::generate(), .state = JobState::kDone, .webhook = "http://a/"};
     const JobRecord untold{

@@ -4,14 +4,20 @@
 
 #include <fstream>
 
+#include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sqlite_catalogue.h"
+#include "server/catalogue/sqlite_database.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::server {
 namespace {
 
+// SQL that changes the newest tables back to those of the version before notes.
+const std::string kBeforeNotes = "DROP TABLE annotation;";
+
 // SQL that changes the newest tables back to those of the version before presentations.
 const std::string kBeforePresentations =
+    kBeforeNotes +
     "DROP INDEX model_guard; ALTER TABLE model DROP COLUMN presentation;"
     "CREATE INDEX model_guard ON model(title);";
 
@@ -129,6 +135,16 @@ TEST_F(Migrations, ModelsFromBeforePresentationsAreShownAsInTheirFiles) {
   found.presentation.scale = 25.4;
   ASSERT_TRUE(catalogue->update(found, std::nullopt));
   EXPECT_EQ(catalogue->find(model.id).value()->presentation, found.presentation);
+}
+
+TEST_F(Migrations, ModelsFromBeforeNotesHaveNone) {
+  const ModelRecord model{.id = ModelId::generate()};
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  run(kBeforeNotes + "DELETE FROM migration WHERE version >= 20");
+  EXPECT_EQ(open_sqlite_catalogue(file_).value()->find(model.id).value()->notes, 0u);
+  const auto notes = make_notes(sqlite::open_database(file_).value());
+  ASSERT_TRUE(notes->put(model.id, NoteKind::kNotes, {.entries = 2, .text = "[]"}));
+  EXPECT_EQ(open_sqlite_catalogue(file_).value()->find(model.id).value()->notes, 2u);
 }
 
 TEST_F(Migrations, ContinuesWithTheTablesOfANewerVersionThatAllowsIt) {

@@ -104,6 +104,7 @@ class SqliteDamage : public testing::Test {
     const auto catalogue = open_sqlite_catalogue(file_).value();
     const auto jobs = open_sqlite_jobs(file_).value();
     const auto visits = make_visits(sqlite::open_database(file_).value());
+    const auto notes = make_notes(sqlite::open_database(file_).value());
     for (std::uint8_t i = 0; i < 20; ++i) {
       ModelRecord model{.id = ModelId::generate(), .state = ModelState::kPublished};
       model.created = 1'700'000'000'000 + i;
@@ -115,6 +116,8 @@ class SqliteDamage : public testing::Test {
       const ChunkPlace chunks[] = {{.chunk = Sha256{i, 3}, .offset = 100, .length = 2'000},
                                    {.chunk = Sha256{i, 4}, .offset = 2'100, .length = 3'000}};
       EXPECT_TRUE(catalogue->add(model, chunks));
+      const NoteSheet sheet{.entries = 1, .text = R"([{"id":"ear"}])"};
+      EXPECT_TRUE(notes->put(model.id, static_cast<NoteKind>(i % 2), sheet));
       const ModelDay day{model.id, std::chrono::sys_days(std::chrono::days(20'000 + i))};
       EXPECT_TRUE(visits->add({{day, {.visits = 3u + i, .seconds = 90, .levels = 7}}}));
       const TokenRecord token{.id = TokenId::generate(),

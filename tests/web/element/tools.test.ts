@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Box3, PerspectiveCamera, Vector3 } from "three";
 import { passesHalf } from "@element/tools/announcer.ts";
-import { readAnnotations, triple } from "@element/tools/annotations.ts";
+import { readAnnotations, triple } from "@element/notes/annotations.ts";
 import { rakingFrom } from "@element/tools/light.ts";
 import { apiOf, exportOf, linkTo, settingIn } from "@element/tools/links.ts";
 import { unpackDepth } from "@element/tools/pick.ts";

@@ -46,6 +46,12 @@ export class Api {
     return (answer.status === 204 ? undefined : await answer.json()) as T;
   }
 
+  /** Like send(), and also resolves to the new entity tag of the resource. */
+  async sendTagged<T>(method: string, path: string, body: unknown, tag: string): Promise<{ value: T; tag: string }> {
+    const answer = await this.#ask(path, { method, body, headers: { "If-Match": tag } });
+    return { value: (await answer.json()) as T, tag: answer.headers.get("ETag") ?? "" };
+  }
+
   /**
    * Starts a job. If the response gets lost, repeat the same call: it reuses the idempotency key,
    * so the job is not started twice.

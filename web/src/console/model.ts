@@ -8,6 +8,7 @@ import { count, date, size, texts as gallery } from "../ui/texts/index.ts";
 import type { ConsolePage, Visit } from "./desk.ts";
 import { Alert, button, field, form, isConfirmed, type Values } from "./forms.ts";
 import { levelReport } from "./levels.ts";
+import type { NotePart, NotesEditor } from "./notes.ts";
 import type { Placed, PresentationEditor } from "./presentation.ts";
 import { facts, heading, modelBadge, repairList } from "./parts.ts";
 import { language, texts } from "./texts/index.ts";
@@ -45,7 +46,9 @@ class ModelEditor {
   readonly #repairs = h("section", { class: "card", hidden: true });
   readonly #form = h("section", { class: "card" });
   readonly #setting = h("details", { class: "card setting", ontoggle: () => void this.#openSetting() }, h("summary", {}, words.setting));
+  readonly #noting = h("details", { class: "card setting noting", ontoggle: () => void this.#openNotes() }, h("summary", {}, texts.notes.title));
   #editor: PresentationEditor | undefined;
+  #notes: NotesEditor | undefined;
   readonly #title = h("h1", { tabindex: -1 });
   readonly #state = h("span");
   #tag = "";
@@ -59,7 +62,7 @@ class ModelEditor {
   async open(): Promise<string> {
     const { view } = this.visit, model = await this.#read();
     view.append(h("header", { class: "heading" }, this.#title, this.#state),
-      h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#setting, this.#report, this.#repairs, this.#replacing()), h("div", {}, this.#side, this.#form)));
+      h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#setting, this.#noting, this.#report, this.#repairs, this.#replacing()), h("div", {}, this.#side, this.#form)));
     this.#show(model);
     void this.#showLevels();
     return model.title || gallery.untitled;
@@ -102,6 +105,22 @@ class ModelEditor {
     const editor = (this.#editor = new PresentationEditor({ h, field, form, texts, gallery, language }, { stage: this.#stage, signal, poster, save: (changes) => this.#present(changes) }));
     this.#setting.append(editor.element);
     editor.show(this.#model);
+  }
+
+  /** Loads the editor of notes and tours when it is first opened. */
+  async #openNotes(): Promise<void> {
+    if (this.#notes || !this.#noting.open || !this.#model) return;
+    const { desk: { api, say }, signal } = this.visit, { title, presentation, unit } = this.#model, alert = new Alert();
+    const { NotesEditor } = await import("./notes.ts");
+    const path = (part: NotePart) => `${this.#path}/${part}`;
+    const editor = new NotesEditor({ h, field, form, texts, gallery, language }, {
+      id: this.id, title, scale: { presentation, unit }, stage: this.#stage, signal, saved: () => say(words.saved),
+      read: (part) => api.tagged(path(part), signal),
+      save: async (part, documents, tag) => (await api.sendTagged("PUT", path(part), documents, tag)).tag,
+    });
+    if (!(await alert.attempt(() => editor.open()))) return this.#noting.append(alert.element);
+    this.#notes = editor;
+    this.#noting.append(editor.element);
   }
 
   /** Saves the presentation, and shows it in a new viewer as visitors see it. The form of the metadata keeps its unsaved texts. */

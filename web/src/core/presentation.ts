@@ -26,6 +26,8 @@ export interface Presentation {
   view: PresentedView | null;
   poster: PresentedView | null;
   light: PresentedLight | null;
+  /** Number of notes that the daemon has for the model. Missing if there are none. */
+  notes?: number;
 }
 
 /** Reads the text that comes with a model's head. Returns undefined if there is none or if it is malformed. */

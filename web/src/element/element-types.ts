@@ -39,5 +39,6 @@ export interface ProgressiveMeshElementEventMap {
   picture: CustomEvent<{ side: number; texels: number; bytes: number }>;
   load: CustomEvent<null>;
   error: CustomEvent<{ message: string }>;
+  "tour-step": CustomEvent<{ step: number; steps: number }>;
   "camera-change": CustomEvent<{ source: "user-interaction" | "none" }>;
 }

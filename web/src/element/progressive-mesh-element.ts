@@ -37,7 +37,8 @@ const kAmounts = ["max-triangles", "max-bytes", "target-error", "pixel-error"];
  * Events: `first-paint` (the base mesh is on the screen, no enhancement layer has been requested
  * yet), `progress` {bytes, total}, `refine` {triangles, vertices, bytes} for each state shown,
  * `picture` {side, texels, bytes} for each picture shown, `memory` {geometry, pictures} (bytes of graphics memory),
- * `load` (the requested detail is reached), `error` {message}, `camera-change` {source}.
+ * `load` (the requested detail is reached), `error` {message}, `camera-change` {source},
+ * `tour-step` {step, steps}.
  */
 export class ProgressiveMeshElement extends Base {
   static readonly observedAttributes = [

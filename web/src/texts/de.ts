@@ -64,6 +64,15 @@ export const de = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   notes: "Notizen",
   noteMarker: (number, title) => `Notiz ${number}: ${title}`,
   notesMissing: "Die Notizen sind nicht lesbar.",
+  tour: {
+    start: (title) => `Rundgang abspielen: ${title}`,
+    play: "Abspielen",
+    pause: "Pause",
+    next: "Nächste Station",
+    previous: "Vorige Station",
+    end: "Rundgang beenden",
+    stop: (number, all) => `${number} von ${all}`,
+  },
 
   surface: "Fläche",
   form: "Nur die Form",

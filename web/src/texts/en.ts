@@ -63,6 +63,15 @@ export const en = ({ count, size, length, extent, bound }: Formats) => ({
   notes: "Notes",
   noteMarker: (number: number, title: string) => `Note ${number}: ${title}`,
   notesMissing: "The notes cannot be loaded.",
+  tour: {
+    start: (title: string) => `Play the tour: ${title}`,
+    play: "Play",
+    pause: "Pause",
+    next: "Next stop",
+    previous: "Previous stop",
+    end: "End the tour",
+    stop: (number: number, all: number) => `${number} of ${all}`,
+  },
 
   surface: "Surface",
   form: "Form only",

@@ -64,6 +64,15 @@ export const es = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   notes: "Notas",
   noteMarker: (number, title) => `Nota ${number}: ${title}`,
   notesMissing: "No se pueden cargar las notas.",
+  tour: {
+    start: (title) => `Iniciar el recorrido: ${title}`,
+    play: "Reproducir",
+    pause: "Pausa",
+    next: "Parada siguiente",
+    previous: "Parada anterior",
+    end: "Terminar el recorrido",
+    stop: (number, all) => `${number} de ${all}`,
+  },
 
   surface: "Superficie",
   form: "Solo la forma",

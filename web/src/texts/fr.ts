@@ -64,6 +64,15 @@ export const fr = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   notes: "Notes",
   noteMarker: (number, title) => `Note ${number} : ${title}`,
   notesMissing: "Les notes ne peuvent pas être chargées.",
+  tour: {
+    start: (title) => `Lancer la visite : ${title}`,
+    play: "Lire",
+    pause: "Pause",
+    next: "Étape suivante",
+    previous: "Étape précédente",
+    end: "Terminer la visite",
+    stop: (number, all) => `${number} sur ${all}`,
+  },
 
   surface: "Surface",
   form: "Forme seule",

@@ -64,6 +64,15 @@ export const it = ({ count, size, length, extent, bound }: Formats): ViewerTexts
   notes: "Note",
   noteMarker: (number, title) => `Nota ${number}: ${title}`,
   notesMissing: "Le note non possono essere caricate.",
+  tour: {
+    start: (title) => `Avvia la visita: ${title}`,
+    play: "Riproduci",
+    pause: "Pausa",
+    next: "Tappa successiva",
+    previous: "Tappa precedente",
+    end: "Termina la visita",
+    stop: (number, all) => `${number} di ${all}`,
+  },
 
   surface: "Superficie",
   form: "Solo la forma",

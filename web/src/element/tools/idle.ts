@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resets the viewer after `idle-reset` seconds without input. In a kiosk, this prepares the viewer
+// Resets the viewer after `idle-reset` seconds without input, or without a new step of a tour. In a kiosk, this prepares the viewer
 // for the next visitor.
 import type { Bench, Tool } from "./bench.ts";
 
-const kSigns = ["pointerdown", "pointermove", "wheel", "keydown", "focusin"] as const;
+const kSigns = ["pointerdown", "pointermove", "wheel", "keydown", "focusin", "tour-step"] as const;
 
 export class Idle implements Tool {
   #timer: ReturnType<typeof setTimeout> | undefined;

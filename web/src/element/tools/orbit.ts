@@ -28,15 +28,22 @@ export class OrbitController {
     this.view = { ...view, azimuth: view.azimuth + azimuth, elevation: view.elevation + elevation, distance: view.distance * zoom };
   }
 
-  /**
-   * Moves the camera to the side of the target to which `direction` points. Skips the animation if
-   * the visitor prefers reduced motion.
-   */
+  /** Moves the camera to the side of the target to which `direction` points. */
   flyTo(direction: Vector3): void {
-    const from = this.view, { azimuth, elevation } = anglesOf(direction);
-    const turn = ((((azimuth - from.azimuth) % 360) + 540) % 360) - 180;
-    const rise = elevation - from.elevation;
-    const at = (part: number) => ({ ...from, azimuth: from.azimuth + part * turn, elevation: from.elevation + part * rise });
+    const { azimuth, elevation } = anglesOf(direction);
+    this.fly({ ...this.view, azimuth, elevation });
+  }
+
+  /** Moves the camera to a view. Skips the animation if the visitor prefers reduced motion. */
+  fly(to: OrbitView): void {
+    const from = this.view, between = (a: number, b: number, part: number) => a + part * (b - a);
+    const turn = ((((to.azimuth - from.azimuth) % 360) + 540) % 360) - 180;
+    const at = (part: number): OrbitView => ({
+      azimuth: from.azimuth + part * turn,
+      elevation: between(from.elevation, to.elevation, part),
+      distance: from.distance * (to.distance / from.distance) ** part,
+      target: from.target.map((value, axis) => between(value, to.target[axis] as number, part)) as OrbitView["target"],
+    });
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return void (this.view = at(1));
     this.stop();
     const begin = performance.now();

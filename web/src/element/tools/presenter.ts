@@ -4,12 +4,14 @@ import { Vector3 } from "three";
 import type { Presentation, PresentedView } from "../../core/presentation.ts";
 import type { Bench } from "./bench.ts";
 import type { Light } from "./light.ts";
+import type { NoteReader } from "../notes/note-reader.ts";
+import type { Notes } from "./notes.ts";
 import { pick } from "./pick.ts";
 
 type Triple = [number, number, number];
 
 export class Presenter {
-  constructor(private readonly bench: Bench, private readonly light: Light) {}
+  constructor(private readonly bench: Bench, private readonly light: Light, private readonly notes: Notes) {}
 
   /** Turns and scales the model at once. The camera sees it as large as before. */
   preview(placement: Pick<Presentation, "rotation" | "scale">): void {
@@ -38,6 +40,11 @@ export class Presenter {
     const degrees = (value: number) => Number(value.toFixed(3)) + 0;
     const view = { azimuth: degrees(azimuth), elevation: degrees(elevation), zoom: round(zoom), target: target.lengthSq() > 0 ? point : null };
     return { view, light: this.light.presented };
+  }
+
+  /** Loads the code that shows notes. */
+  noteReader(): Promise<NoteReader> {
+    return this.notes.reader();
   }
 
   /** The size of the model along x, y and z, in presented coordinates. */

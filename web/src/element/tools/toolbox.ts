@@ -30,6 +30,7 @@ export class Toolbox implements Bench {
   readonly overlay: Overlay;
   readonly orbit = new OrbitController(() => this.stage);
   readonly #choice: Panel["choice"];
+  readonly #style: (css: string) => void;
   readonly #heard = make("p", { class: "heard", role: "status" });
   readonly #bar: HTMLElement;
   readonly #sheets: Sheets;
@@ -43,6 +44,7 @@ export class Toolbox implements Bench {
 
   constructor(readonly host: Bench["host"], panel: Panel, readonly texts: ViewerTexts) {
     const { root, view, choice } = panel;
+    this.#style = (css) => panel.style(css);
     const marks = make("div", { class: "marks" });
     this.#made = [marks, this.#heard];
     panel.style(style);
@@ -102,8 +104,8 @@ export class Toolbox implements Bench {
   #fill(): Tool[] {
     const { texts } = this, sheets = this.#sheets;
     const light = new Light(this), shadow = new Shadow(this), surface = new SurfaceStyle(this), section = new Section(this);
-    const measure = new Measure(this), notes = new Notes(this), reality = new Reality(this);
-    this.presenter = new Presenter(this, light);
+    const measure = new Measure(this), notes = new Notes(this, this.#style, { light, section }), reality = new Reality(this);
+    this.presenter = new Presenter(this, light, notes);
     const save = new Save(this, { light, shadow, surface, section, note: notes });
     sheets.action("reset", texts.reset, () => this.page.frame());
     sheets.add("light", texts.light, make("div", {}, light.content, shadow.content));
@@ -114,6 +116,7 @@ export class Toolbox implements Bench {
     reader.hidden = true;
     notes.onFilled = (any) => (reader.hidden = !any);
     notes.onChosen = () => reader.ariaExpanded === "false" && reader.click();
+    notes.onTour = () => sheets.close();
     const room = sheets.add("ar", texts.ar, reality.content, (open) => open && void reality.open());
     room.hidden = true;
     reality.onKnown = (isUsable) => (room.hidden = !isUsable);

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that a curator places notes on a model and makes a tour in the console, and that a visitor plays the tour by keyboard.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS (a folder).
+import assert from "node:assert/strict";
+import { mkdir, readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { ViewerPage, launch } from "./browser.mjs";
+import { Desk, overflow, tokenFor, violations } from "./console_desk.mjs";
+import { Daemon } from "./daemon.mjs";
+
+const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
+
+let browser, daemon, operator, id, plain;
+
+before(async () => {
+  await mkdir(pictures, { recursive: true });
+  browser = await launch();
+  daemon = await Daemon.start(bin);
+  operator = await tokenFor(daemon, "operator");
+  [id, plain] = await Promise.all(["Bust", "Plain bust"].map(async (title) => (await daemon.publish(scan, title, "--unit", "mm")).split("/").pop()));
+});
+
+after(async () => {
+  await browser?.close();
+  await daemon?.stop();
+});
+
+const api = (model = id) => `${daemon.url}/api/v1/models/${model}`;
+const read = async (part) => (await (await fetch(`${api()}/${part}`)).json())[part];
+
+async function put(part, list) {
+  const headers = { Authorization: `Bearer ${operator}`, "Content-Type": "application/json" };
+  const answer = await fetch(`${api()}/${part}`, { method: "PUT", headers, body: JSON.stringify({ [part]: list }) });
+  assert.equal(answer.status, 200, await answer.text());
+}
+
+/** Opens the page of a model with all detail. */
+async function open({ model = id, attributes = {}, ...options } = {}) {
+  const viewer = await ViewerPage.open(browser, `${daemon.url}/models/${model}`, { attributes: { "pixel-error": "0", lang: "en", ...attributes }, ...options });
+  await viewer.releaseLayers();
+  await viewer.events("load");
+  await viewer.page.locator("button[name=save]").waitFor();
+  return viewer;
+}
+
+const orbit = ({ page }) => page.locator("progressive-mesh").evaluate((element) => element.getCameraOrbit());
+const focused = ({ page }) => page.evaluate(() => document.activeElement?.shadowRoot?.activeElement?.textContent ?? "");
+const focusedName = ({ page }) => page.evaluate(() => document.activeElement?.shadowRoot?.activeElement?.getAttribute("aria-label") ?? "");
+const stepText = ({ page }) => page.locator(".tour-panel [aria-live]");
+
+/** Presses Tab until the element with this name has the focus. */
+async function tabTo(viewer, name) {
+  for (let i = 0; i < 60; ++i) {
+    if ((await focusedName(viewer)) === name || (await focused(viewer)) === name) return;
+    await viewer.page.keyboard.press("Tab");
+  }
+  assert.fail(`Tab does not reach "${name}"`);
+}
+
+test("a curator places notes on the surface, writes them, and orders them into a tour", { timeout: 240_000 }, async () => {
+  const desk = await Desk.open(browser, daemon, { token: operator, viewport: { width: 1440, height: 900 }, locale: "en-GB", acceptDownloads: true }), { page } = desk;
+  await desk.go(`models/${id}`, "Bust");
+  const viewer = page.locator("progressive-mesh"), canvas = viewer.locator("canvas");
+  await page.waitForFunction(() => document.querySelector("progressive-mesh")?.presenter);
+  const requested = () => page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => name.split("/").pop()));
+  assert.ok(!(await requested()).some((name) => name === "console-notes.js" || name === "progressive-mesh-note-reader.js"), "the editor is loaded on first use");
+  await page.getByText("Notes and tours…").click();
+  await page.getByRole("button", { name: "Place a note" }).waitFor();
+  const form = page.locator(".note-form"), field = (name) => form.locator(`[name=${name}]`);
+  const discard = ".notes-editor .actions:has([type=submit]) > :last-child"; // disabled if there are no unsaved changes
+  const saved = () => page.waitForFunction((selector) => document.querySelector(selector).disabled, discard);
+  const clickMiddle = async () => {
+    const { x, y, width, height } = await canvas.boundingBox();
+    await page.mouse.click(x + width / 2, y + height / 2);
+  };
+
+  // By the mouse. The first note has texts in two languages, a picture and raking light.
+  await viewer.locator("button[name=light]").click();
+  await viewer.locator("label:has([value=raking])").click();
+  await desk.press("Place a note");
+  await clickMiddle();
+  await form.waitFor();
+  assert.equal(await page.evaluate(() => document.activeElement.name), "title", "the title can be written at once");
+  await field("title").fill("Face");
+  await field("text").fill("Of marble.\n\nSee [the catalogue](https://museum.example/bust).");
+  await field("picture").fill(`/api/v1/models/${id}/poster.png?width=240`);
+  await field("alt").fill("The bust from the front");
+  await field("language").selectOption("de");
+  assert.equal(await field("title").inputValue(), "");
+  await field("title").fill("Gesicht");
+  await field("language").selectOption("en");
+  assert.equal(await field("title").inputValue(), "Face", "each language has its own texts");
+  await viewer.getByRole("button", { name: "Note 1: Face" }).waitFor();
+
+  // From other sides, one of them by keyboard alone.
+  await viewer.locator("label:has([value=museum])").click();
+  for (const [key, presses, title] of [["ArrowRight", 8, "Left side"], ["ArrowLeft", 16, "Right side"]]) {
+    for (let i = 0; i < presses; ++i) await canvas.press(key);
+    if (title === "Left side") {
+      await desk.press("Place a note");
+      await clickMiddle();
+    } else {
+      await page.getByRole("button", { name: "Place it in the middle of the view" }).press("Enter");
+    }
+    await page.locator(".note-list .name").nth(title === "Left side" ? 1 : 2).waitFor();
+    await field("title").fill(title);
+  }
+  await page.screenshot({ path: join(pictures, "notes-editor-1440.png") });
+
+  await desk.press("New tour of all notes");
+  await page.locator(".tour [name=en]").fill("Around the bust");
+  await page.getByRole("button", { name: "Move stop 3 up" }).press("Enter");
+  assert.deepEqual(await page.locator(".steps select:first-of-type").evaluateAll((all) => all.map((one) => one.selectedOptions[0].textContent)), ["Face", "Right side", "Left side"]);
+  await page.getByLabel("Seconds of stop 1").fill("30");
+  await page.getByLabel("Transition to stop 2").selectOption("cut");
+
+  // An error stands at its field, and nothing is lost.
+  await page.locator(".note-list .name", { hasText: "Face" }).click();
+  await field("picture").fill("poster.png");
+  await desk.press("Save notes and tours");
+  await page.locator("[name=picture][aria-invalid]:focus ~ small", { hasText: "Expected: a URL" }).waitFor();
+  await field("picture").fill(`/api/v1/models/${id}/poster.png?width=240`);
+  assert.deepEqual(await read("notes"), []);
+  for (const [width, height] of [[1440, 900], [390, 844]]) {
+    await page.setViewportSize({ width, height });
+    await page.locator(".noting").scrollIntoViewIfNeeded();
+    await page.screenshot({ path: join(pictures, `notes-console-${width}.png`), fullPage: true });
+    assert.ok((await overflow(page)) <= 0, `fits into ${width} pixels`);
+  }
+  assert.deepEqual(await violations(page), []);
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await desk.press("Save notes and tours");
+  await desk.says("Saved.");
+  await saved();
+
+  const notes = await read("notes"), [tour] = await read("tours");
+  assert.deepEqual(notes.map(({ texts }) => texts.en.title), ["Face", "Left side", "Right side"]);
+  assert.equal(notes[0].texts.de.title, "Gesicht");
+  assert.deepEqual([notes[0].light.split(",")[0], notes[1].light], ["raking", "museum"]);
+  assert.ok(notes[0].view.direction[0] !== notes[1].view.direction[0], "each note keeps its view");
+  for (const { normal, view } of notes) assert.ok(normal.reduce((sum, part, axis) => sum + part * view.direction[axis], 0) > 0, "the normal points to the eye");
+  assert.equal(tour.titles.en, "Around the bust");
+  assert.deepEqual(tour.steps, [{ note: notes[0].id, seconds: 30 }, { note: notes[2].id, transition: "cut" }, { note: notes[1].id }]);
+
+  // A colleague has changed the notes meanwhile: the text stays, and can be saved after another look.
+  await put("notes", notes.slice(0, 2));
+  await field("title").fill("The face");
+  await desk.press("Save notes and tours");
+  await desk.says("The notes or tours have changed since");
+  assert.equal((await read("notes")).length, 2);
+  await desk.go("models", "Models");
+  await desk.go(`models/${id}`, "Bust");
+  await page.getByText("Notes and tours…").click();
+  await page.getByText("These changes are not saved yet.").waitFor();
+  await desk.press("Save notes and tours");
+  await desk.says("Saved.");
+  await saved();
+  assert.equal((await read("notes"))[0].texts.en.title, "The face");
+
+  // Files: what was saved comes back, and annotations of IIIF are added.
+  const [download] = await Promise.all([page.waitForEvent("download"), desk.press("Save as a file")]);
+  const file = await readFile(await download.path());
+  assert.deepEqual(JSON.parse(file).notes, await read("notes"));
+  const annotations = await (await fetch(`${daemon.url}/api/v1/iiif/4/${id}/annotations.json`)).text();
+  const choose = (name, buffer) => page.locator(".notes-editor input[type=file]").setInputFiles({ name, mimeType: "application/json", buffer });
+  await choose("annotations.json", Buffer.from(annotations));
+  await page.getByText("3 notes were read.").waitFor();
+  assert.equal(await page.locator(".note-list li").count(), 6);
+  await desk.press("Save notes and tours");
+  await saved();
+  const six = await read("notes");
+  for (const axis of [0, 1, 2]) assert.ok(Math.abs(six[4].position[axis] - six[1].position[axis]) < 1e-6 * Math.max(1, Math.abs(six[1].position[axis])), "points of the scene are those of the notes");
+  await choose("saved.json", file);
+  await page.getByText("3 notes were read.").waitFor();
+  await page.waitForFunction(() => document.querySelectorAll(".note-list li").length === 3);
+  await desk.press("Save notes and tours");
+  await saved();
+  assert.deepEqual(await read("notes"), JSON.parse(file).notes);
+  await choose("other.json", Buffer.from("{}"));
+  await page.getByText("This file has no notes").waitFor();
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("a visitor plays the tour by keyboard, and screen readers read each stop", { timeout: 120_000 }, async () => {
+  const viewer = await open(), { page } = viewer, panel = page.locator(".tour-panel"), start = await orbit(viewer);
+  await page.locator("canvas").focus();
+  await tabTo(viewer, "Notes");
+  await page.keyboard.press("Enter");
+  await tabTo(viewer, "Play the tour: Around the bust");
+  await page.keyboard.press("Enter");
+  assert.equal(await focusedName(viewer), "Play", "with reduced motion, the tour waits for the visitor");
+  assert.equal(await panel.getAttribute("aria-label"), "Around the bust");
+  assert.match(await stepText(viewer).textContent(), /^The faceOf marble\.See the catalogue\.$/);
+  assert.equal(await stepText(viewer).getAttribute("aria-live"), "polite");
+  assert.equal(await panel.locator(".place").textContent(), "1 of 3");
+  assert.equal(await panel.locator("a").getAttribute("href"), "https://museum.example/bust");
+  await page.waitForFunction(() => document.querySelector("progressive-mesh").shadowRoot.querySelector(".tour-panel img")?.naturalWidth === 240);
+  assert.equal(await panel.locator("img").getAttribute("alt"), "The bust from the front");
+  assert.ok(await page.locator("input[value=raking]").isChecked(), "the light of the note");
+  await viewer.picture(join(pictures, "notes-tour.png"));
+
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await stepText(viewer).textContent(), "Right side");
+  const right = await orbit(viewer);
+  assert.ok(Math.abs(right.theta - start.theta) > 0.3, "the view of the note");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await panel.locator(".place").textContent(), "3 of 3");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await stepText(viewer).textContent(), "Left side", "the tour has ended");
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await stepText(viewer).textContent(), "Right side");
+  const again = await orbit(viewer);
+  assert.ok(Math.abs(again.theta - right.theta) < 1e-3);
+  await page.keyboard.press("Escape");
+  assert.equal(await panel.count(), 0);
+  assert.equal(await focused(viewer), "Play the tour: Around the bust", "the visitor continues at the same place");
+  assert.ok(!(await page.locator("input[value=raking]").isChecked()), "the light is as before");
+  assert.deepEqual(await viewer.complaints(), []);
+  await page.context().close();
+});
+
+test("a tour plays by itself, can be paused, and waits if the visitor looks around", { timeout: 120_000 }, async () => {
+  const notes = await read("notes"), [tour] = await read("tours");
+  await put("tours", [{ ...tour, steps: notes.map(({ id: note }) => ({ note, seconds: 1 })) }]);
+  const viewer = await open({ reducedMotion: "no-preference", attributes: { "camera-controls": "" } }), { page } = viewer, panel = page.locator(".tour-panel");
+  await viewer.sheet("notes");
+  await page.getByRole("button", { name: "Play the tour" }).click();
+  await panel.getByText("2 of 3").waitFor();
+  await panel.getByText("3 of 3").waitFor();
+  await panel.getByRole("button", { name: "Play" }).waitFor(); // the end
+  await page.keyboard.press("Space");
+  await panel.getByText("1 of 3").waitFor(); // from the start again
+  assert.equal(await focusedName(viewer), "Pause");
+  await page.locator("canvas").dispatchEvent("pointerdown", { pointerId: 1, isPrimary: true, bubbles: true });
+  await panel.getByRole("button", { name: "Play" }).waitFor();
+  await panel.getByRole("button", { name: "End the tour" }).click();
+  await put("tours", [tour]);
+  assert.deepEqual(await viewer.complaints(), []);
+  await page.context().close();
+});
+
+test("notes are in the visitor's language, come over WebSocket too, and are kept by links", { timeout: 120_000 }, async () => {
+  const viewer = await open({ attributes: { lang: "de", transport: "ws" } }), { page } = viewer;
+  await page.getByRole("button", { name: "Notiz 1: Gesicht" }).click();
+  assert.equal(await page.locator(".notes [aria-current]").getAttribute("lang"), "de");
+  await viewer.sheet("save");
+  assert.match(await page.locator("input[name=link]").inputValue(), /note=1/);
+  assert.deepEqual(await viewer.complaints(), []);
+  await page.context().close();
+});
+
+test("a model without notes costs no request for them", { timeout: 120_000 }, async () => {
+  const viewer = await open({ model: plain }), { page } = viewer;
+  const names = await page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => name.split("/").pop()));
+  assert.deepEqual(names.filter((name) => /note|tour/.test(name)), []);
+  assert.ok(await page.locator("button[name=notes]").isHidden());
+  await page.context().close();
+});
+
+test("notes look right on all screens", { timeout: 120_000 }, async () => {
+  for (const [width, height] of [[1440, 900], [390, 844], [844, 390], [1920, 1080]]) {
+    const viewer = await open({ width, height }), { page } = viewer;
+    await viewer.sheet("notes");
+    await page.locator(".notes").waitFor();
+    await page.screenshot({ path: join(pictures, `notes-list-${width}.png`), animations: "disabled" });
+    await page.getByRole("button", { name: "Play the tour" }).click();
+    await page.screenshot({ path: join(pictures, `notes-tour-${width}.png`), animations: "disabled" });
+    const box = await page.locator(".tour-panel").boundingBox(), view = await page.locator(".view").boundingBox();
+    assert.ok(box.x >= view.x && box.x + box.width <= view.x + view.width && box.y >= view.y && box.y + box.height <= view.y + view.height + 1, `inside at ${width}`);
+    await page.context().close();
+  }
+});

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+import { inLanguage, languageIn, type StoredNote } from "@element/notes/annotations.ts";
+import { paragraphsOf, secondsToRead } from "@element/notes/paragraphs.ts";
+
+test("empty lines separate paragraphs, and links have labels", () => {
+  expect(paragraphsOf("One,\ntwo.\r\n\r\nSee [the file](https://a.example/b?c=d), [and](http://b).\n\n\n")).toEqual([
+    ["One,\ntwo."], ["See ", { label: "the file", url: "https://a.example/b?c=d" }, ", ", { label: "and", url: "http://b" }, "."],
+  ]);
+  expect(paragraphsOf("")).toEqual([]);
+});
+
+test.each(["[a](javascript:alert(1))", "[a](/b)", "<b>bold</b>", "[a] (https://b)"])("'%s' stays a text", (text) => expect(paragraphsOf(text)).toEqual([[text]]));
+
+test.each([["de", "de"], ["de-CH", "de"], ["en-GB", "en-GB"], ["fr", "en-GB"], ["", "en-GB"]])("a visitor of language '%s' reads %s", (wanted, tag) =>
+  expect(languageIn({ de: 1, "en-GB": 1, it: 1 }, wanted)).toBe(tag));
+
+test("without English, the first language is shown, and nothing without any", () => {
+  expect(languageIn({ it: 1, es: 1 }, "fr")).toBe("it");
+  expect(languageIn({}, "fr")).toBeUndefined();
+});
+
+test("a note is shown in the language of the page", () => {
+  const note: StoredNote = { id: "a", position: [1, 2, 3], texts: { en: { title: "Ear", text: "Plaster" }, de: { title: "Ohr", audio: "/o.mp3" } }, light: "raking,45", section: "" };
+  expect(inLanguage(note, "de-AT")).toMatchObject({ title: "Ohr", text: "", audio: "/o.mp3", language: "de", light: "raking,45", section: "" });
+  expect(inLanguage(note, "fr")).toMatchObject({ title: "Ear", text: "Plaster", language: "en" });
+});
+
+test("a tour leaves time to read", () => {
+  expect(secondsToRead("Ear", "")).toBe(5);
+  expect(secondsToRead("Ear", "word ".repeat(99))).toBe(43);
+  expect(secondsToRead("word ".repeat(1000))).toBe(60);
+});

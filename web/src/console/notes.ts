@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edits the notes on a model and the tours through them. The viewer shows changes at once. They are kept while the operator visits
+// other pages, until they are saved or discarded.
+import type { StoredNote } from "../element/notes/annotations.ts";
+import type { NoteDocuments, NoteReader } from "../element/notes/note-reader.ts";
+import { readNoteFile, type SceneScale } from "./iiif-notes.ts";
+import { NoteForm, newId, refill } from "./note-form.ts";
+import type { Kit } from "./presentation.ts";
+import { TourForm } from "./tour-form.ts";
+
+export type NotePart = keyof NoteDocuments;
+
+export interface NotesOptions {
+  id: string;
+  /** Name for saved files. */
+  title: string;
+  scale: SceneScale;
+  /** The element that contains the viewer. */
+  stage: HTMLElement;
+  signal: AbortSignal;
+  read(part: NotePart): Promise<{ value: Partial<NoteDocuments>; tag: string }>;
+  /** Stores one part and resolves to its new entity tag. Rejects if the daemon refuses it. */
+  save(part: NotePart, documents: Partial<NoteDocuments>, tag: string): Promise<string>;
+  saved(): void;
+}
+
+const kParts = ["notes", "tours"] as const;
+const kStill = 5; // pixels that the pointer may move during a click
+
+const drafts = new Map<string, NoteDocuments>(); // unsaved changes by the model's ID
+addEventListener("beforeunload", (event) => drafts.size > 0 && event.preventDefault());
+
+export class NotesEditor {
+  readonly element: HTMLElement;
+  readonly #form: HTMLFormElement;
+  readonly #list: HTMLOListElement;
+  readonly #noteForm: NoteForm;
+  readonly #tourForm: TourForm;
+  readonly #place: HTMLButtonElement;
+  readonly #discard: HTMLButtonElement;
+  readonly #said: HTMLElement;
+  readonly #tags: Record<NotePart, string> = { notes: "", tours: "" };
+  #saved: NoteDocuments = { notes: [], tours: [] };
+  #now: NoteDocuments = { notes: [], tours: [] };
+  #chosen = ""; // ID of the note in the form
+  #moved = ""; // ID of the note that the next click moves
+
+  constructor(private readonly kit: Kit, private readonly options: NotesOptions) {
+    const { h, form, texts } = kit, words = texts.notes;
+    this.#list = h("ol", { class: "note-list" });
+    this.#said = h("p", { class: "quiet", role: "status" });
+    this.#place = h("button", { type: "button", "aria-pressed": "false", onclick: () => (this.#isPlacing = !this.#isPlacing) }, words.place);
+    const middle = h("button", { type: "button", onclick: () => void this.#putInMiddle() }, words.placeMiddle);
+    this.#noteForm = new NoteForm(kit, {
+      changed: (note) => this.#replace(note),
+      takeView: () => void this.#takeView(),
+      move: () => this.#move(),
+      remove: () => this.#remove(),
+    });
+    this.#tourForm = new TourForm(kit, (tours) => this.#change({ ...this.#now, tours }));
+    const file = h("input", { type: "file", accept: ".json,application/json,application/ld+json", hidden: true, onchange: () => void this.#import(file) });
+    this.#discard = h("button", { type: "button", onclick: () => this.#change(this.#saved, true) }, words.discard);
+    this.#form = form([
+      h("fieldset", {}, h("legend", {}, words.notes), h("p", { class: "quiet" }, words.hint), h("div", { class: "actions" }, this.#place, middle), this.#said, this.#list, this.#noteForm.element),
+      this.#tourForm.element,
+      h("fieldset", {}, h("legend", {}, words.files), h("p", { class: "quiet" }, words.filesHint), h("div", { class: "actions" },
+        h("button", { type: "button", onclick: () => this.#export() }, words.exportFile), h("button", { type: "button", onclick: () => file.click() }, words.importFile), file)),
+    ], words.save, () => this.#save());
+    this.#form.querySelector(".actions:has([type=submit])")?.append(this.#discard);
+    this.element = h("div", { class: "presentation notes-editor" }, this.#form);
+    this.#listen();
+  }
+
+  /** Reads the stored notes and tours. Continues with unsaved changes, if there are any. */
+  async open(): Promise<void> {
+    const [notes, tours] = await Promise.all(kParts.map((part) => this.options.read(part)));
+    this.#tags.notes = notes?.tag ?? "";
+    this.#tags.tours = tours?.tag ?? "";
+    this.#saved = { notes: notes?.value.notes ?? [], tours: tours?.value.tours ?? [] };
+    const draft = drafts.get(this.options.id);
+    this.#change(draft ?? this.#saved, true);
+    if (draft) this.#said.textContent = this.kit.texts.presentation.restored;
+  }
+
+  #listen(): void {
+    const { stage, signal } = this.options, options = { signal, capture: true };
+    let down: PointerEvent | undefined;
+    stage.addEventListener("pointerdown", (event) => (down = event), options);
+    stage.addEventListener("pointerup", (event) => {
+      const isClick = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < kStill;
+      if (this.#isPlacing && isClick && event.composedPath()[0] instanceof HTMLCanvasElement) void this.#put(event.clientX, event.clientY);
+    }, options);
+    // A new viewer shows the saved notes first.
+    stage.addEventListener("load", () => void this.#preview(), options);
+  }
+
+  get #isPlacing(): boolean {
+    return this.#place.ariaPressed === "true";
+  }
+  set #isPlacing(on: boolean) {
+    const words = this.kit.texts.notes;
+    this.#place.ariaPressed = String(on);
+    this.options.stage.classList.toggle("measuring", on);
+    if (!on) this.#moved = "";
+    this.#said.textContent = on ? (this.#moved ? words.clickMove : words.click) : "";
+  }
+
+  #reader(): Promise<NoteReader> {
+    return this.options.stage.querySelector("progressive-mesh")?.presenter?.noteReader() ?? Promise.reject(new Error(this.kit.texts.notes.noViewer));
+  }
+
+  #putInMiddle(): Promise<void> {
+    const canvas = this.options.stage.querySelector("progressive-mesh")?.shadowRoot?.querySelector("canvas");
+    const { left, top, width, height } = (canvas ?? this.options.stage).getBoundingClientRect();
+    return this.#put(left + width / 2, top + height / 2);
+  }
+
+  /** Places a new note, or moves one, to the surface at a point of the window. */
+  async #put(x: number, y: number): Promise<void> {
+    const reader = await this.#reader(), place = reader.pick(x, y), words = this.kit.texts.notes;
+    if (!place) return void (this.#said.textContent = words.missed);
+    const moved = this.#now.notes.find(({ id }) => id === this.#moved), { moment } = reader;
+    this.#isPlacing = false;
+    if (moved) return this.#replace({ ...moved, ...place });
+    const note: StoredNote = { id: newId(), ...place, ...moment, texts: { [this.#noteForm.language]: { title: words.untitled(this.#now.notes.length + 1) } } };
+    this.#chosen = note.id;
+    this.#change({ ...this.#now, notes: [...this.#now.notes, note] }, true);
+    this.#noteForm.focus();
+  }
+
+  async #takeView(): Promise<void> {
+    const { moment } = await this.#reader(), note = this.#note;
+    if (!note) return;
+    this.#replace({ ...note, ...moment });
+    this.#said.textContent = this.kit.texts.notes.viewTaken;
+  }
+
+  #move(): void {
+    this.#moved = this.#chosen;
+    this.#isPlacing = true;
+  }
+
+  #remove(): void {
+    const gone = this.#chosen;
+    this.#chosen = "";
+    const tours = this.#now.tours.map((tour) => ({ ...tour, steps: tour.steps.filter(({ note }) => note !== gone) }));
+    this.#change({ notes: this.#now.notes.filter(({ id }) => id !== gone), tours }, true);
+    this.#place.focus();
+  }
+
+  get #note(): StoredNote | undefined {
+    return this.#now.notes.find(({ id }) => id === this.#chosen);
+  }
+
+  #replace(note: StoredNote): void {
+    this.#change({ ...this.#now, notes: this.#now.notes.map((one) => (one.id === note.id ? note : one)) });
+  }
+
+  #swap(i: number, j: number): void {
+    const notes = [...this.#now.notes], [a, b] = [notes[i], notes[j]];
+    if (!a || !b) return;
+    [notes[i], notes[j]] = [b, a];
+    this.#change({ ...this.#now, notes });
+  }
+
+  /** Shows the documents `now`. Fills the forms again if `isOther`, else leaves them to the operator who types. */
+  #change(now: NoteDocuments, isOther = false): void {
+    this.#now = now;
+    const isSame = JSON.stringify(now) === JSON.stringify(this.#saved);
+    if (isSame) drafts.delete(this.options.id);
+    else drafts.set(this.options.id, now);
+    this.#discard.disabled = isSame;
+    (this.#form.querySelector("[type=submit]") as HTMLButtonElement).disabled = isSame;
+    this.#noteForm.note = this.#note;
+    if (isOther) this.#noteForm.fill();
+    refill(this.#list, now.notes.map((note, i) => this.#row(note, i)));
+    this.#tourForm.show(now, isOther);
+    void this.#preview();
+  }
+
+  #row(note: StoredNote, i: number): HTMLElement {
+    const { h, texts: { notes: words } } = this.kit, title = this.#noteForm.titleOf(note), isChosen = note.id === this.#chosen;
+    const choose = () => {
+      this.#chosen = isChosen ? "" : note.id;
+      this.#change(this.#now, true);
+      if (!isChosen) this.#noteForm.focus();
+    };
+    const shift = (by: number, label: string, sign: string) =>
+      h("button", { type: "button", class: "plain", "aria-label": label, disabled: !this.#now.notes[i + by], onclick: () => this.#swap(i, i + by) }, sign);
+    return h("li", {}, h("button", { type: "button", class: "plain name", "aria-expanded": String(isChosen), onclick: choose }, title),
+      shift(-1, words.earlier(title), "↑"), shift(1, words.later(title), "↓"));
+  }
+
+  async #preview(): Promise<void> {
+    // Without a viewer, the notes can still be edited.
+    (await this.#reader().catch(() => undefined))?.preview(this.#now);
+  }
+
+  async #save(): Promise<void> {
+    try {
+      for (const part of kParts) {
+        if (JSON.stringify(this.#now[part]) === JSON.stringify(this.#saved[part])) continue;
+        this.#tags[part] = await this.options.save(part, { [part]: this.#now[part] }, this.#tags[part]);
+        this.#saved = { ...this.#saved, [part]: this.#now[part] };
+      }
+    } catch (error) {
+      this.#showFault(error);
+      throw error;
+    }
+    this.#change(this.#now);
+    this.options.saved();
+  }
+
+  /** Opens the note to which a refusal of the daemon refers. */
+  #showFault(error: unknown): void {
+    const [, number] = /^notes\.(\d+)/.exec((error as { faults?: { parameter: string }[] }).faults?.[0]?.parameter ?? "") ?? [];
+    const note = number === undefined ? undefined : this.#now.notes[Number(number)];
+    if (!note || note.id === this.#chosen) return;
+    this.#chosen = note.id;
+    this.#change(this.#now, true);
+  }
+
+  #export(): void {
+    const address = URL.createObjectURL(new Blob([JSON.stringify(this.#now, null, 1)], { type: "application/json" }));
+    this.kit.h("a", { href: address, download: `${this.options.title || "model"}.notes.json` }).click();
+    URL.revokeObjectURL(address);
+  }
+
+  async #import(input: HTMLInputElement): Promise<void> {
+    const file = input.files?.[0], words = this.kit.texts.notes;
+    input.value = "";
+    if (!file) return;
+    try {
+      const read = readNoteFile(await file.text(), this.options.scale, newId, words.noNotes);
+      this.#chosen = "";
+      this.#change(read.isWhole ? { notes: read.notes, tours: read.tours } : { ...this.#now, notes: [...this.#now.notes, ...read.notes] }, true);
+      this.#said.textContent = words.imported(read.notes.length);
+    } catch (error) {
+      this.#said.textContent = (error as Error).message;
+    }
+  }
+}

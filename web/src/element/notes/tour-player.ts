@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plays a tour: shows one note after the other in a panel over the model. The visitor can pause, step and end it, also by keyboard.
+// Screen readers read the note of each step. If the visitor prefers reduced motion, the camera jumps, and the tour waits for the visitor.
+import type { Bench } from "../tools/bench.ts";
+import type { Annotation } from "./annotations.ts";
+import { describe } from "./describe.ts";
+import type { NoteKit } from "./note-reader.ts";
+import { secondsToRead } from "./paragraphs.ts";
+
+export interface TourStep {
+  /** Place of the note in the list of notes. */
+  index: number;
+  note: Annotation;
+  seconds?: number;
+  transition?: "fly" | "cut";
+}
+
+export class TourPlayer {
+  readonly #panel: HTMLElement;
+  readonly #place: HTMLElement;
+  readonly #text: HTMLElement;
+  readonly #toggle: HTMLButtonElement;
+  #steps: TourStep[] = [];
+  #at = 0;
+  #isPlaying = false;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #before = { light: "", section: "" }; // settings before the tour
+  #until = new AbortController(); // ends the listeners of the tour
+  #starter: HTMLElement | undefined;
+
+  /** `show` shows a note on the model. */
+  constructor(private readonly bench: Bench, private readonly kit: NoteKit, private readonly show: (note: number, isCut: boolean) => void) {
+    const { make } = kit, { tour } = bench.texts;
+    const action = (name: string, label: string, sign: string, act: () => void) =>
+      make("button", { type: "button", name, title: label, "aria-label": label, onclick: act }, make("span", { "aria-hidden": "true" }, sign));
+    this.#toggle = action("play", tour.pause, "❚❚", () => (this.#playing = !this.#isPlaying));
+    this.#place = make("span", { class: "place" });
+    // The text is a live region, so that screen readers read each step.
+    this.#text = make("div", { class: "text", "aria-live": "polite", "aria-atomic": "true", tabindex: "0" });
+    const bar = make("div", { class: "bar" }, action("previous", tour.previous, "‹", () => this.#step(-1)), this.#toggle,
+      action("next", tour.next, "›", () => this.#step(1)), this.#place, action("end", tour.end, "×", () => this.#leave()));
+    this.#panel = make("section", { class: "tour-panel", role: "group" }, this.#text, bar);
+    this.#panel.addEventListener("keydown", (event) => this.#press(event));
+  }
+
+  /** Starts a tour. `starter` gets the focus back at its end. */
+  start(title: string, steps: TourStep[], starter: HTMLElement): void {
+    const { light, section } = this.kit;
+    this.end();
+    this.#before = { light: light.setting ?? "", section: section.setting ?? "" };
+    this.#steps = steps;
+    this.#at = 0;
+    this.#starter = starter;
+    this.#panel.ariaLabel = title;
+    this.kit.onTour();
+    this.bench.view.append(this.#panel);
+    this.bench.view.classList.add("touring");
+    const look = ({ target }: Event) => void (this.#panel.contains(target as Node) || (this.#playing = false)); // the visitor looks around
+    this.bench.view.addEventListener("pointerdown", look, { signal: (this.#until = new AbortController()).signal });
+    this.#isPlaying = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.#toggle.focus();
+    this.#present();
+  }
+
+  /** Ends the tour, and restores light and section. */
+  end(): void {
+    clearTimeout(this.#timer);
+    if (!this.#panel.isConnected) return;
+    this.#until.abort();
+    this.#panel.remove();
+    this.bench.view.classList.remove("touring");
+    this.#text.replaceChildren();
+    for (const name of ["light", "section"] as const) {
+      if (this.#before[name]) this.kit[name].setting = this.#before[name];
+      else this.kit[name].reset?.();
+    }
+  }
+
+  /** Ends the tour for the visitor, who continues where the tour was started. */
+  #leave(): void {
+    this.end();
+    this.kit.onChosen(); // opens the sheet again
+    this.#starter?.focus();
+  }
+
+  set #playing(on: boolean) {
+    if (!this.#panel.isConnected || on === this.#isPlaying) return;
+    this.#isPlaying = on;
+    if (on && this.#at === this.#steps.length - 1) this.#at = 0;
+    this.#present(on);
+  }
+
+  #step(by: number): void {
+    const at = this.#at + by;
+    if (at < 0 || at >= this.#steps.length) return;
+    this.#at = at;
+    this.#present();
+  }
+
+  /** Shows the present step. If not `isNew`, only the buttons change. */
+  #present(isNew = true): void {
+    const { make } = this.kit, { tour } = this.bench.texts, { index, note, transition } = this.#steps[this.#at] as TourStep;
+    clearTimeout(this.#timer);
+    if (isNew) {
+      this.#text.replaceChildren(make("p", { class: "title" }, note.title), ...describe(make, note));
+      this.#text.lang = note.language ?? "";
+      if (!note.language) this.#text.removeAttribute("lang");
+      this.show(index, transition === "cut");
+      this.bench.host.dispatchEvent(new CustomEvent("tour-step", { detail: { step: this.#at + 1, steps: this.#steps.length } }));
+      const sound = this.#text.querySelector("audio");
+      if (sound && this.#isPlaying) void sound.play().catch(() => undefined); // browsers may refuse to play
+    } else this.#text.querySelector("audio")?.pause();
+    const label = this.#isPlaying ? tour.pause : tour.play;
+    this.#toggle.title = this.#toggle.ariaLabel = label;
+    (this.#toggle.firstChild as HTMLElement).textContent = this.#isPlaying ? "❚❚" : "▶";
+    this.#place.textContent = tour.stop(this.#at + 1, this.#steps.length);
+    if (this.#isPlaying) this.#wait();
+  }
+
+  /** Waits until the note is read, and until its sound has ended, then continues. */
+  #wait(): void {
+    const { note, seconds } = this.#steps[this.#at] as TourStep, sound = this.#text.querySelector("audio");
+    const go = () => {
+      if (sound && !sound.paused && !sound.ended) return sound.addEventListener("ended", go, { once: true });
+      if (!this.#isPlaying || !this.#text.contains(sound ?? this.#text)) return;
+      if (this.#at < this.#steps.length - 1) this.#step(1);
+      else this.#playing = false;
+    };
+    this.#timer = setTimeout(go, 1000 * (seconds ?? secondsToRead(note.title, note.text)));
+  }
+
+  #press(event: KeyboardEvent): void {
+    const act = { ArrowRight: () => this.#step(1), ArrowLeft: () => this.#step(-1), Escape: () => this.#leave() }[event.key];
+    if (!act || (event.target as Element).matches("audio")) return;
+    event.preventDefault();
+    event.stopPropagation(); // without this, Escape would also close a dialog of the page
+    act();
+  }
+}
