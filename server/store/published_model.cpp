@@ -8,6 +8,7 @@
 #include <iterator>
 #include <mutex>
 #include <numeric>
+#include <span>
 
 #include "codec/format/file_blocks.h"
 #include "server/store/change.h"
@@ -125,9 +126,7 @@ std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const 
 
 std::size_t PublishedModels::HashOfScope::operator()(const Scope& scope) const noexcept {
   // Uses the last bytes of the ID, because the first bytes encode a time.
-  std::array<std::uint8_t, 8> random;
-  std::copy(scope.id.bytes().begin() + 8, scope.id.bytes().end(), random.begin());
-  return first_word(random) + (scope.is_whole ? 1 : 0);
+  return first_word(std::span(scope.id.bytes()).last<8>()) + (scope.is_whole ? 1 : 0);
 }
 
 bool PublishedModels::is_fresh(Clock::time_point now, Clock::duration age) const {
