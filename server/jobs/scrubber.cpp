@@ -148,6 +148,7 @@ bool Scrubber::pace(std::uint64_t count) {
 }
 
 bool Scrubber::wait_until(Clock::time_point time) {
+  if (needs_.wait_until) return needs_.wait_until(time);
   std::unique_lock lock(mutex_);
   pause_.wait_until(lock, stopping_.get_token(), time, [] { return false; });
   return !stopping_.stop_requested();

@@ -31,6 +31,9 @@ struct ScrubberDependencies {
   // Asks shared caches to forget the blocks of a damaged file, because their copies may be damaged,
   // too. Empty if there are no shared caches.
   std::function<void(std::vector<Sha256> chunks)> forget = {};
+  // Waits until a time and returns whether to continue. If empty, the scrubber waits by itself,
+  // until stop() is called. Tests count the waits.
+  std::function<bool(std::chrono::steady_clock::time_point)> wait_until = {};
 };
 
 class Scrubber {

@@ -17,18 +17,21 @@ import { promisify } from "node:util";
 import { firstRig } from "./rigs.mjs";
 import { env } from "../e2e/daemon.mjs";
 import { freePort } from "../e2e/nginx.mjs";
-import { Gateway, Postgres } from "./backends.mjs";
+import { Gateway, Postgres, sharedSettings } from "./backends.mjs";
 import { relief } from "./meshes.mjs";
 import { Replica } from "./replica.mjs";
 import { Secrets } from "./secrets.mjs";
 
 const bin = process.env.VITRINE_BIN;
 const kBinary = ["glb", "ply", "stl", "drc"]; // other formats store numbers as text, and the public manifest may contain the same text
-const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz"];
+const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "obj.zip"];
 const kRoles = ["none", "viewer", "operator", "admin"];
-const kPages = ["/", "/models/{id}", "/docs", "/console"];
+const kPages = ["/", "/models/{id}", "/collections/{collection}", "/scans/{id}", "/sitemap.xml", "/docs", "/console"];
+const kForm = { "Content-Type": "application/x-www-form-urlencoded" };
+const kCollection = "Hidden cabinet"; // the collection of all models
 const kSide = 30; // vertices per side of the mesh
 const kSteps = 8; // number of turntable steps per scan
+const kLongSteps = 2000; // the same for a scan that is cancelled
 const kPoses = 12; // number of target poses of the calibration
 const postgres = new Postgres(), gateway = new Gateway();
 const matrix = new Map();
@@ -37,16 +40,8 @@ let folder, replicas, tokens, routes, states = 0;
 before(async () => {
   folder = await mkdtemp(join(tmpdir(), "vitrine-access-"));
   await Promise.all([postgres.start(), gateway.start(), mkdir(join(folder, "uploads"))]);
-  const { access, secret } = Gateway.keys, conf = join(folder, "vitrine.conf");
-  await writeFile(conf, `data = ${folder}/command
-uploads = ${folder}/uploads
-store = ${gateway.url}
-store-access-key = ${access}
-store-secret-key = ${secret}
-catalogue = ${postgres.url}
-request-rate = 0
-max-connections-per-address = 0
-`);
+  const conf = join(folder, "vitrine.conf");
+  await writeFile(conf, sharedSettings(folder, postgres, gateway));
   tokens = { none: undefined };
   for (const role of kRoles.slice(1)) tokens[role] = await token(role, conf);
   replicas = await Promise.all([replica("first", conf, firstRig), replica("second", conf)]);
@@ -85,12 +80,24 @@ async function routesOf(one) {
           ...kPages.map((path) => ({ method: "GET", path, role: "none" }))];
 }
 
+/** Sends a request and returns the whole response. */
 async function ask({ port }, method, path, role = "none", body, more = {}) {
   const headers = { ...(tokens[role] && { Authorization: `Bearer ${tokens[role]}` }), ...(body && { "Content-Type": "application/json" }), ...more };
   const request = http.request({ host: "127.0.0.1", port, method, path, headers, agent: false });
   request.end(body);
   const [response] = await once(request, "response");
   return { status: response.statusCode, headers: response.headers, body: Buffer.concat(await response.toArray()) };
+}
+
+/** Returns the first event of a stream of events, or the whole response if it is not such a stream. */
+async function firstEvent({ port }, path, role) {
+  const headers = tokens[role] && { Authorization: `Bearer ${tokens[role]}` };
+  const request = http.get({ host: "127.0.0.1", port, path, headers, agent: false });
+  const [response] = await once(request, "response"), parts = [];
+  const isStream = response.headers["content-type"] === "text/event-stream";
+  for await (const part of response) if (parts.push(part) && isStream && Buffer.concat(parts).includes("\n\n")) break;
+  request.destroy();
+  return { status: response.statusCode, headers: response.headers, body: Buffer.concat(parts) };
 }
 
 async function json(one, method, path, role, value) {
@@ -113,14 +120,29 @@ async function upload(number, order) {
   const { headers } = await ask(replicas[0], "POST", "/api/v1/uploads", "operator", undefined, { ...tus, "Upload-Length": mesh.length });
   const sent = { ...tus, "Upload-Offset": 0, "Content-Type": "application/offset+octet-stream", "Content-Length": mesh.length };
   assert.equal((await ask(replicas[0], "PATCH", headers.location, "operator", mesh, sent)).status, 204);
-  const { job } = await json(replicas[0], "POST", "/models", "operator", { upload: headers.location.split("/").pop(), metadata: { title: "Relief" }, ...order });
+  const { job } = await json(replicas[0], "POST", "/models", "operator", { upload: headers.location.split("/").pop(), metadata: { title: "Relief", collection: kCollection }, ...order });
   return { model: await ended(job), job };
 }
 
+const startScan = (steps, order) => json(replicas[0], "POST", "/scans", "operator", { scanner: "rig", steps, metadata: { title: "Scan", collection: kCollection }, ...order });
+
 /** Makes a model by a scan. Returns {model, job, scan}. */
 async function scan(number, order) {
-  const { id, job } = await json(replicas[0], "POST", "/scans", "operator", { scanner: "rig", steps: kSteps, metadata: { title: "Scan" }, ...order });
+  const { id, job } = await startScan(kSteps, order);
   return { model: await ended(job), job, scan: id };
+}
+
+/** Starts a scan and waits until it has measured points. Returns {model, job, scan}; `model` does not exist. */
+async function begunScan(order) {
+  const { id, job } = await startScan(kLongSteps, order);
+  const points = () => ask(replicas[0], "GET", `/api/v1/scans/${id}/points`, "operator");
+  for (let { status, body } = await points(); status !== 200 || body.length < 1000; { status, body } = await points()) await pause(50);
+  return { model: "01arz3ndektsv4rrffq69g5fb0", job, scan: id };
+}
+
+async function cancelScan({ job }) {
+  await json(replicas[0], "DELETE", `/jobs/${job}`, "operator");
+  while ((await json(replicas[0], "GET", `/jobs/${job}`, "operator")).state !== "cancelled") await pause(50);
 }
 
 const manifestOf = (one, model, role) => ask(one, "GET", `/api/v1/models/${model}/manifest`, role);
@@ -177,12 +199,20 @@ function expanded(path, values) {
 }
 
 function queries(path, model) {
-  if (/export|manifest$/.test(path)) return ["", "?level=highest"];
+  if (path.endsWith("/export.glb")) return ["", "?level=highest", "?lod=msft"];
+  if (path.includes("/export.")) return ["", "?level=highest"];
+  if (path.endsWith("/manifest")) return ["", "?level=highest"];
   if (path.endsWith("/poster.png")) return ["?width=240"];
   if (/^\/api\/v1\/(models|facets)$/.test(path)) return ["", "?drafts=true"];
   if (path === "/api/v1/oai")
     return ["?verb=ListRecords&metadataPrefix=lido", `?verb=GetRecord&metadataPrefix=edm&identifier=oai:127.0.0.1:${model}`];
   return path.endsWith("/oembed") ? [`?url=http://localhost/models/${model}`] : [""];
+}
+
+/** Sends a request. Sends the query of a harvest by POST in the body. */
+function answered(one, method, path, query, role) {
+  if (path === "/api/v1/oai" && method === "POST") return ask(one, method, path, role, query.slice(1), kForm);
+  return path.endsWith("/events") ? firstEvent(one, path + query, role) : ask(one, method, path + query, role);
 }
 
 /**
@@ -191,11 +221,12 @@ function queries(path, model) {
  */
 async function walk(one, { method, path, role: least }, role, { state, made, names, secrets }) {
   const may = kRoles.indexOf(role) >= kRoles.indexOf(least), statuses = [];
-  if (may && method !== "GET") return statuses; // the request would change the model
-  const ids = [made.model, made.job, "01arz3ndektsv4rrffq69g5fav", ...(made.scan ? [made.scan] : [])];
-  for (const expansion of expanded(path, { id: ids, sha256: names, format: kFormats, name: ["rig"], number: ["1"] })) {
-    for (const query of queries(path, made.model)) {
-      const { status, body } = await ask(one, method, expansion + query, role), request = `${state}: ${role} ${method} ${expansion}${query}`;
+  if (may && method !== "GET" && path !== "/api/v1/oai") return statuses; // the request would change the model
+  const ids = [made.model, made.job, "01arz3ndektsv4rrffq69g5fav", ...(made.scan ? [made.scan] : []), ...(made.others ?? [])];
+  const values = { id: ids, sha256: names, format: kFormats, name: ["rig"], number: ["1"], collection: [encodeURIComponent(kCollection)] };
+  for (const expansion of expanded(path, values)) {
+    for (const query of queries(expansion, made.model)) {
+      const { status, body } = await answered(one, method, expansion, query, role), request = `${state}: ${role} ${method} ${expansion}${query}`;
       assert.ok(status < 500, `${request}: ${status} ${body}`);
       assert.ok(may ? role === "none" || status !== 403 : status === (role === "none" ? 401 : 403), `${request}: ${status}`);
       assert.ok(role !== "none" || !secrets.areIn(body), `${request} gives what is hidden`);
@@ -225,6 +256,11 @@ async function streamed({ port }, model) {
 
 const change = (path, value) => ({ model }) => json(replicas[0], value ? "PATCH" : "POST", `/models/${model}${path}`, "operator", value);
 const cap = change("", { public_max_level: 0 });
+/** Makes another model of the scan, which is not public, and adds its ID to `made.others`. */
+const reprocess = async (made) => {
+  const { job } = await json(replicas[0], "POST", `/scans/${made.scan}/reprocess`, "operator", { bits: 14 });
+  made.others = [await ended(job)];
+};
 const replace = async ({ model }) => upload(100 + states, { replace: model });
 
 // Each state has a name, the order that makes the model, and the change that leads to the state. The last two values are
@@ -233,6 +269,7 @@ const replace = async ({ model }) => upload(100 + states, { replace: model });
 const kStates = [
   ["published", { publish: true }, () => undefined, 200, "all"],
   ["in cm", { publish: true }, change("", { unit: "cm" }), 200, "all"],
+  ["capped at its finest level", { publish: true }, change("", { public_max_level: 255 }), 200, "all"],
   ["capped", { publish: true }, cap, 200, 0],
   ["replaced", { publish: true }, replace, 200, "all"],
   ["capped, replaced", { publish: true }, async (made) => {
@@ -248,10 +285,21 @@ const kStates = [
   ["removed", { publish: true }, ({ model }) => json(replicas[0], "DELETE", `/models/${model}`, "operator"), 404, "none"],
 ];
 
-const kScanned = ["published", "capped", "replaced", "withdrawn"];
+// States that only a scan's model can have.
+const kOfScans = [
+  ["capped, reprocessed", { publish: true }, async (made) => {
+    await cap(made);
+    await reprocess(made);
+  }, 200, 0],
+  ["withdrawn, reprocessed", { publish: true }, async (made) => {
+    await change("/unpublish")(made);
+    await reprocess(made);
+  }, 404, "none"],
+];
 
-for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row) => [upload, row]),
-                                                            ...kStates.filter(([name]) => kScanned.includes(name)).map((row) => [scan, row])]) {
+const kOpen = ["published", "in cm", "published again", "capped at its finest level"]; // states in which nothing is hidden
+
+for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row) => [upload, row]), ...[...kStates, ...kOfScans].map((row) => [scan, row])]) {
   const subject = make === scan ? "the scan's model" : "the model";
   test(`${subject} gives nothing that it hides if it is ${state}`, async () => {
     const made = await make(++states, order), secrets = new Secrets();
@@ -263,18 +311,39 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     await enter(made);
     assert.equal(await agree(made.model), status);
     const now = state === "removed" ? old : await pictured(made.model, undefined, hidesPoster);
-    for (const { bytes } of [old, now, measured]) bytes.forEach((part) => secrets.hide(part));
+    const others = await Promise.all((made.others ?? []).map((model) => pictured(model, undefined, hidesPoster)));
+    for (const { bytes } of [old, now, measured, ...others]) bytes.forEach((part) => secrets.hide(part));
     const open = shown === "all" ? now : shown === "none" ? { bytes: [] } : await pictured(made.model, shown);
     open.bytes.forEach((part) => secrets.reveal(part));
     // Every export states the model's URL as its source. The URL of a public model made at the same time begins equally, because
     // an ID begins with ten characters of time.
     secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/${made.model.slice(0, 10)}`));
     secrets.reveal(Buffer.from('<?xml version="1.0" encoding="UTF-8"?>\n<')); // records and files of 3MF begin so
-    if (state === "published") measured.bytes.forEach((part) => secrets.reveal(part));
-    assert.ok(["published", "in cm", "published again"].includes(state) || secrets.size > 100, "nothing is hidden, so this test proves nothing");
-    const visit = { state: `${subject} is ${state}`, made, secrets, names: [...new Set([...old.names, ...now.names])] };
+    if (kOpen.includes(state)) measured.bytes.forEach((part) => secrets.reveal(part));
+    assert.ok(kOpen.includes(state) || secrets.size > 100, "nothing is hidden, so this test proves nothing");
+    const visit = { state: `${subject} is ${state}`, made, secrets, names: [...new Set([old, now, ...others].flatMap(({ names }) => names))] };
     for (const route of routes) await walkAll(route, visit);
     for (const one of replicas) assert.ok(!secrets.areIn(await streamed(one, made.model)), "the stream gives what is hidden");
+    // Scans of the same object can have a chunk in common, which would then be public in later states.
+    if (made.scan && state !== "removed") await json(replicas[0], "DELETE", `/models/${made.model}`, "operator");
+  });
+}
+
+for (const [state, publish, enter, status] of [["being scanned as public", true, () => undefined, 200],
+                                              ["being scanned as a draft", false, () => undefined, 401],
+                                              ["cancelled", true, cancelScan, 401]]) {
+  test(`a scan gives nothing that it hides if it is ${state}`, async () => {
+    const made = await begunScan({ publish }), secrets = new Secrets();
+    ++states;
+    try {
+      await enter(made);
+      const { bytes } = await measuredBy(made);
+      if (status !== 200) bytes.forEach((part) => secrets.hide(part));
+      for (const route of routes) await walkAll(route, { state: `the scan is ${state}`, made, secrets, names: [] });
+      for (const one of replicas) assert.equal((await ask(one, "GET", `/api/v1/scans/${made.scan}/points`)).status, status);
+    } finally {
+      if (enter !== cancelScan) await cancelScan(made);
+    }
   });
 }
 

@@ -79,3 +79,17 @@ export class Gateway extends Backend {
     return [...listed.matchAll(/<Key>objects\/([0-9a-f/]+)<\/Key>/g)].map(([, key]) => key.replaceAll("/", ""));
   }
 }
+
+/** Returns the settings, as text of a configuration file, of daemons that share the back ends and the uploads in `folder`. */
+export function sharedSettings(folder, postgres, gateway) {
+  const { access, secret } = Gateway.keys;
+  return `data = ${folder}/command
+uploads = ${folder}/uploads
+store = ${gateway.url}
+store-access-key = ${access}
+store-secret-key = ${secret}
+catalogue = ${postgres.url}
+request-rate = 0
+max-connections-per-address = 0
+`;
+}

@@ -10,7 +10,7 @@ import { promisify } from "node:util";
 import { startRigs } from "./rigs.mjs";
 import { env } from "../e2e/daemon.mjs";
 import { Nginx, freePort } from "../e2e/nginx.mjs";
-import { Gateway, Postgres } from "./backends.mjs";
+import { Gateway, Postgres, sharedSettings } from "./backends.mjs";
 import { Replica, kRestart } from "./replica.mjs";
 import { note } from "./timeline.mjs";
 import { Visitor } from "./visitor.mjs";
@@ -52,18 +52,9 @@ export class Cluster {
   }
 
   async #configure() {
-    const uploads = join(this.folder, "uploads"), { access, secret } = Gateway.keys;
-    await mkdir(uploads);
+    await mkdir(join(this.folder, "uploads"));
     this.conf = join(this.folder, "vitrine.conf");
-    await writeFile(this.conf, `data = ${this.folder}/command
-uploads = ${uploads}
-store = ${this.gateway.url}
-store-access-key = ${access}
-store-secret-key = ${secret}
-catalogue = ${this.postgres.url}
-collect-after = 1
-request-rate = 0
-max-connections-per-address = 0
+    await writeFile(this.conf, `${sharedSettings(this.folder, this.postgres, this.gateway)}collect-after = 1
 max-uploads = 1000
 trusted-proxies = 127.0.0.1
 `);

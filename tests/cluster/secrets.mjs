@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+import { createHash } from "node:crypto";
+
 // Length of a window, in bytes. Two models can have 16 equal bytes in their PLY files (a triangle and a part of the next
 // one), so a window must be longer.
 const kWindow = 32;
@@ -9,8 +11,10 @@ const kWindow = 32;
  */
 export class Secrets {
   #windows = new Set();
+  #harmless = new Set(); // SHA-256 of contents without secrets: daemons often send the same content
 
   hide(content) {
+    this.#harmless.clear();
     for (const window of windows(content, kWindow)) this.#windows.add(window);
   }
 
@@ -23,7 +27,10 @@ export class Secrets {
   }
 
   areIn(content) {
+    const name = createHash("sha256").update(content).digest("hex");
+    if (this.#harmless.has(name)) return false;
     for (const window of windows(content, 1)) if (this.#windows.has(window)) return true;
+    this.#harmless.add(name);
     return false;
   }
 }

@@ -63,6 +63,7 @@ class Work(threading.Thread):
     """Makes an operator's requests until the daemon is killed."""
 
     kept = 2  # number of models that are never deleted
+    patched = None  # path of the upload that has received the last piece
 
     def __init__(self, daemon, token, dice, known):
         super().__init__()
@@ -72,12 +73,15 @@ class Work(threading.Thread):
     def run(self):
         try:
             while True:
-                self.dice.choice([self.upload, self.go_on, self.make, self.make, self.change, self.delete])()
+                self.one()
         except Gone:
             pass
         except Exception as fault:  # pylint: disable=broad-except
             self.fault = fault
             self.client.enough.set()
+
+    def one(self):
+        self.dice.choice([self.upload, self.go_on, self.make, self.make, self.change, self.delete])()
 
     def upload(self):
         mesh = torus(self.dice.randint(12, 40), self.dice.randint(8, 20))
@@ -100,9 +104,12 @@ class Work(threading.Thread):
             piece = mesh[offset:offset + self.dice.choice([len(mesh), self.dice.randint(1, len(mesh))])]
             if not piece:
                 continue
+            self.patched = path
             answer = self.client.tus("PATCH", path, piece, Upload_Offset=offset)
             if answer.status == 204:
                 self.uploads[path][1] = offset + len(piece)
+            if answer.status == 507:
+                del self.uploads[path]  # the disk has no room for the piece, so the daemon has ended the upload
 
     def make(self):
         self.go_on()

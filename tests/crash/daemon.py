@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The daemon as a process that can be killed, and an HTTP client for it."""
+import contextlib
 import http.client
 import json
 import os
+import re
 import signal
 import subprocess
 import threading
+from pathlib import Path
 
 
 class Gone(Exception):
@@ -37,6 +40,19 @@ class Daemon:
                 self.port = int(line.rsplit(":", 1)[1].split('"')[0].strip())
         self.reader = threading.Thread(target=lambda: self.printed.extend(self.process.stderr))
         self.reader.start()
+
+    def resident(self):
+        """Returns the daemon's resident memory in bytes."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+        return int(re.search(r"VmRSS:\s+(\d+)", status)[1]) << 10
+
+    def descriptors(self):
+        """Returns what each open descriptor of the daemon refers to, except undeleted model files, which the daemon caches."""
+        found = []
+        for link in Path(f"/proc/{self.process.pid}/fd").iterdir():
+            with contextlib.suppress(FileNotFoundError):  # the daemon has closed the descriptor meanwhile
+                found.append(os.readlink(link))
+        return [name for name in found if "/objects/" not in name or "(deleted)" in name]
 
     def kill(self):
         self.process.send_signal(signal.SIGKILL)

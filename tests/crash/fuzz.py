@@ -11,9 +11,7 @@ The frames are mutations of all messages of the stream protocol. Prints the rand
 how much memory the daemon used.
 """
 import collections
-import contextlib
 import json
-import os
 import random
 import re
 import socket
@@ -86,33 +84,40 @@ class Requests:
     }
     VALUES = {"q": "ring", "limit": "5", "cursor": "eA", "drafts": "true", "triangles": "500", "error": "0.5", "bytes": "9000",
               "level": "1", "kbps": "800", "seconds": "2", "saveData": "on", "texture": "512", "width": "240", "from": "0", "maxwidth": "300",
-              "maxheight": "200", "format": "json", "url": "http://localhost/models/MODEL"}
+              "maxheight": "200", "format": "json", "url": "http://localhost/models/MODEL", "verb": "ListRecords", "metadataPrefix": "lido",
+              "identifier": "oai:localhost:MODEL", "until": "2099-01-01", "set": "rings", "resumptionToken": "eA", "lod": "msft",
+              "compression": "draco", "collection": "rings", "sort": "title", "subject": "ring", "unit": "cm", "up": "z"}
+    HARVESTS = ("verb=ListRecords&metadataPrefix=oai_dc&from=2020-01-01&until=2099-01-01", "verb=ListIdentifiers&metadataPrefix=edm&set=rings",
+                "verb=GetRecord&metadataPrefix=lido&identifier=oai:localhost:MODEL", "verb=Identify", "verb=ListSets&resumptionToken=eA")
+    PAGES = ("/", "/models/MODEL", "/collections/rings", "/scans/MODEL", "/sitemap.xml", "/robots.txt", "/console", "/docs")
 
     def __init__(self, document, token, names):
         self.bearer, self.names, self.components = f"Authorization: Bearer {token}\r\n", names, document["components"]
         self.all = [self.filled(f"{method} {path} HTTP/1.1\r\nHost: localhost\r\n", "") for method, path in
-                    (("GET", "/"), ("GET", "/models/MODEL"), ("HEAD", "/docs"), ("GET", "/console"), ("OPTIONS", "/api/v1/models"))]
+                    (*(("GET", page) for page in self.PAGES), ("HEAD", "/docs"), ("OPTIONS", "/api/v1/models"))]
         for path, calls in document["paths"].items():
             for method, call in calls.items():
-                self.all += self.of(method.upper(), path, call)
+                for form in ("ply", "glb") if "{format}" in path else ("",):
+                    self.all += self.of(method.upper(), path.replace("{format}", form), call)
 
     def of(self, method, path, call):
         """Returns requests for one call: without a query, with each query parameter, and without a token but with further fields."""
         fields = "Host: localhost\r\nTus-Resumable: 1.0.0\r\nUpload-Length: 900\r\nUpload-Offset: 0\r\nIdempotency-Key: k\r\n"
-        body, kind = "", next(iter(call.get("requestBody", {}).get("content", {"": {}}).items()))
-        if kind[0] == "application/json":
-            body = json.dumps(self.BODIES[kind[1]["schema"]["$ref"].rsplit("/", 1)[1]])
-        fields += f"Content-Type: {kind[0]}\r\n" if kind[0] else ""
-        path = path.replace("{name}", "rig").replace("{number}", "1").replace("{sha256}", "CHUNK").replace("{format}", "ply")
+        kind, schema = next(iter(call.get("requestBody", {}).get("content", {"": {}}).items()))
+        bodies = [json.dumps(self.BODIES[schema["schema"]["$ref"].rsplit("/", 1)[1]])] if kind == "application/json" else \
+            self.HARVESTS if kind == "application/x-www-form-urlencoded" else [""]
+        fields += f"Content-Type: {kind}\r\n" if kind else ""
+        path = path.replace("{name}", "rig").replace("{number}", "1").replace("{sha256}", "CHUNK")
         queries = [""] + [f"?{name}={self.VALUES[name]}" for name in self.queried(call) if name in self.VALUES]
+        queries += ["?" + harvest for harvest in self.HARVESTS if method == "GET" and path.endswith("/oai")]
         thing = {"jobs": "JOB", "uploads": "UPLOAD"}.get(path.split("/")[3], "MODEL")
         head = f"{method} {path.replace('{id}', thing)}"
         hides_the_model = thing == "MODEL" and (method == "DELETE" or path.endswith("/unpublish"))
         bearer = "" if hides_the_model else self.bearer  # without a model, most later requests would get 404
-        requests = [self.filled(f"{head}{query} HTTP/1.1\r\n{fields}{bearer}", body) for query in queries]
+        requests = [self.filled(f"{head}{query} HTTP/1.1\r\n{fields}{bearer}", body) for query in queries for body in bodies]
         for more in ("", "Range: bytes=5-9,20-29\r\n", 'If-None-Match: "x", W/"y"\r\n', "Accept-Encoding: gzip;q=0.5, br\r\n",
                      "X-Forwarded-For: 10.0.0.1, 10.0.0.2\r\nForwarded: for=1.2.3.4;proto=https\r\nOrigin: http://other.example\r\n"):
-            requests.append(self.filled(f"{head} HTTP/1.1\r\n{fields}{more}", body))
+            requests += [self.filled(f"{head} HTTP/1.1\r\n{fields}{more}", body) for body in bodies]
         return requests
 
     def queried(self, call):
@@ -161,7 +166,7 @@ class Attack:
         """Publishes a model if there is none, and makes the valid requests and messages, which contain its ID."""
         client = self.client()
         if not self.model or not self.is_public(client):
-            job = job_of(client, upload(client, torus(40, 24))[1])
+            job = job_of(client, upload(client, torus(40, 24))[1], metadata={"title": "Torus", "collection": "rings"})
             self.model, self.job = job["model"], job["id"]
         manifest = client.json("GET", f"/api/v1/models/{self.model}/manifest")[1]
         names = {"MODEL": self.model, "JOB": self.job, "UPLOAD": self.an_upload(client), "CHUNK": manifest["chunks"][-1]["sha256"]}
@@ -221,27 +226,18 @@ class Attack:
             assert time.monotonic() < end, "a job does not end"
             time.sleep(0.02)
         client.connection.close()
-        status = Path(f"/proc/{self.daemon.process.pid}/status").read_text(encoding="ascii")
-        return int(re.search(r"VmRSS:\s+(\d+)", status)[1]) << 10
-
-    def descriptors(self):
-        """Returns what each open descriptor of the daemon refers to, except undeleted model files, which the daemon caches."""
-        found = []
-        for link in Path(f"/proc/{self.daemon.process.pid}/fd").iterdir():
-            with contextlib.suppress(FileNotFoundError):  # the daemon has closed the descriptor meanwhile
-                found.append(os.readlink(link))
-        return [name for name in found if "/objects/" not in name or "(deleted)" in name]
+        return self.daemon.resident()
 
     def until_idle(self, most):
         """Waits until the daemon has at most `most` open descriptors."""
         end = time.monotonic() + TIMEOUT
-        while len(self.descriptors()) > most:
-            assert time.monotonic() < end, f"{most} descriptors were open, now {sorted(self.descriptors())}"
+        while len(self.daemon.descriptors()) > most:
+            assert time.monotonic() < end, f"{most} descriptors were open, now {sorted(self.daemon.descriptors())}"
             time.sleep(0.02)
 
     def run(self, send, count, name):
         """Sends `count` mutations in rounds. Checks how much the memory grows in the second half."""
-        before, half = len(self.descriptors()), None
+        before, half = len(self.daemon.descriptors()), None
         for sent in range(0, count, ROUND):
             self.make()
             send(min(ROUND, count - sent))
@@ -250,7 +246,7 @@ class Attack:
                 half = self.resident()
         self.until_idle(before + 4)
         last = self.resident()
-        print(f"{count} {name}: {dict(sorted(self.seen.items()))}, {before} and {len(self.descriptors())} descriptors, "
+        print(f"{count} {name}: {dict(sorted(self.seen.items()))}, {before} and {len(self.daemon.descriptors())} descriptors, "
               f"{half / 1e6:.1f} and {last / 1e6:.1f} MB at the half and the end", flush=True)
         assert last <= half + (GROWTH if count >= WARM else COLD_GROWTH), "the memory grows"
         self.seen.clear()

@@ -1,25 +1,29 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Uploads models whose JPEG, WebP or PNG textures are damaged. Jobs must make models without textures; the daemon must survive.
+"""Uploads models whose textures are damaged. Jobs must make models without these textures; the daemon must survive.
 
 Usage: pictures.py BINARIES [DAMAGES [SEED]]
 
-For each texture, makes DAMAGES (default 3) shortened copies and as many copies with flipped bits. Pictures in formats that
-the reader does not support, such as GIF, count as damaged. Prints the random seed and how the jobs ended.
+For each texture, makes DAMAGES (default 3) shortened copies and as many copies with flipped bits. JPEG, WebP and PNG files are
+textures of GLB files; TIFF, BMP and TGA files are next to an OBJ file in a ZIP package. Pictures in formats that the reader
+does not support, such as GIF, count as damaged. Prints the random seed and how the jobs ended.
 """
 import collections
+import io
 import json
 import random
 import struct
 import sys
 import tempfile
+import zipfile
 from pathlib import Path
 
 from daemon import Client, Daemon, new_token
 from disk import is_served, job_of, upload
 
 CORPUS = Path(__file__).resolve().parents[1] / "fuzz/corpus/decode_picture"
-PICTURES = ("jpeg", "webp_lossy", "webp_lossless", "png")
+EMBEDDED = ("jpeg", "webp_lossy", "webp_lossless", "png")
+PACKAGED = ("tiff", "tiff_cmyk", "bmp", "tga", "tga_runs")
 HEADER = 32  # number of bytes at the start of a picture; at least half of the damages are among them
 FOREIGN = {"TIFF": b"II*\0\x08\0\0\0" + bytes(64), "big-endian TIFF": b"MM\0*\0\0\0\x08" + bytes(64), "GIF": b"GIF89a" + bytes(64),
            "nothing": bytes(64)}
@@ -53,6 +57,17 @@ def glb(picture):
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
+def package(picture, name):
+    """Returns a ZIP file with an OBJ file of a square, its material library, and this picture as its texture."""
+    picture_name, content = f"square.{name.partition('_')[0]}", io.BytesIO()
+    with zipfile.ZipFile(content, "w") as files:
+        files.writestr("square.obj", "mtllib square.mtl\nusemtl square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                       "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n")
+        files.writestr("square.mtl", f"newmtl square\nmap_Kd {picture_name}\n")
+        files.writestr(picture_name, picture)
+    return content.getvalue()
+
+
 def damaged(content, count, dice):
     """Yields `count` shortened copies of a picture, and `count` copies with some flipped bits."""
     for number in range(count):
@@ -70,7 +85,8 @@ class Uploads:
 
     def model(self, picture, name):
         """Makes a model from a file with a texture. Returns the model, and whether it has the texture."""
-        job = job_of(self.client, upload(self.client, glb(picture))[1], metadata={"title": name})
+        file = package(picture, name) if name in PACKAGED else glb(picture)
+        job = job_of(self.client, upload(self.client, file)[1], metadata={"title": name})
         assert job["state"] == "done", f"{name} {picture.hex()}: {job}"
         assert is_served(self.client, job["model"]), job
         has_texture = self.client.json("GET", f"/api/v1/models/{job['model']}/manifest")[1]["texture"] is not None
@@ -81,11 +97,11 @@ class Uploads:
 def run(daemon, token, count, dice):
     client = Client(daemon, token)
     uploads = Uploads(client)
-    for name in PICTURES:
+    for name in EMBEDDED + PACKAGED:
         content = (CORPUS / name).read_bytes()
         whole, has_texture = uploads.model(content, name)
         assert has_texture, name
-        for picture in [content[:len(content) // 2 - HEADER], *damaged(content, count, dice)]:
+        for picture in [content[:len(content) // 3], *damaged(content, count, dice)]:
             uploads.model(picture, name)
         assert uploads.seen[f"{name}: without the texture"] > 0, f"no damage of {name} is found"
         assert is_served(client, whole), name

@@ -3,10 +3,13 @@
 """Runs the daemon under load and faults for hours, and checks its data after each start.
 
 Usage: soak.py BINARIES [HOURS [SEED]]
+       soak.py BINARIES brief [SEED]
 
 An operator works as in crash.py. Meanwhile, some changes of the disk fail as if it were full, the clock jumps, and mutated
 requests and frames arrive. Each daemon runs for some minutes and is ended by SIGKILL or SIGTERM. The script makes the checks
-of crash.py, and checks that `vitrine doctor --scrub` finds no damage and that the daemon's memory stays below a limit.
+of crash.py, and checks that `vitrine doctor --scrub` finds no damage and that the daemon's memory stays below a limit. Every
+tenth daemon runs for longer: in a run of ten hours or more, for 30 to 60 minutes. In the second half of this time, neither its
+memory nor the number of its descriptors may grow. `brief` makes a fixed number of faults, which take about half a minute.
 Prints a line for each daemon.
 """
 import collections
@@ -15,25 +18,71 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from pathlib import Path
 
 from clock import HOUR, Clock
 from crash import Known, Look, Work
-from daemon import Client, Daemon, new_token
+from daemon import Client, Daemon, Gone, new_token
 from full_disk import Disk
 from fuzz import OPTIONS, STATUS, Requests, frame, messages, mutated_request, talk
 from mutations import mutated
 
-LIFE = (20, 300)  # shortest and longest time in seconds for which a daemon runs
+LIFE = (20, 300)  # shortest and longest time in seconds for which most daemons run
+LONG_LIFE = (1800, 3600)  # the same for every tenth daemon, in a run of RUN hours or more; in a shorter run, the same share of the run
+RUN = 10
+BRIEF = (4, 16, 4)  # number of faults of each daemon in a brief run; the second one is judged
+SAMPLES = 8  # number of times at which a daemon with a long life is idle and its memory and descriptors are counted
+BACKLOG = 10  # number of jobs that the operator has open at once
+GROWTH = 4 << 20  # bytes by which the memory of a daemon may grow from the third to the fourth quarter of a long life
+COLD_GROWTH = 64 << 20  # the same in a short run, in which caches still grow
+MORE_DESCRIPTORS = 4  # number of descriptors by which a daemon may use more in the fourth quarter than in the third
 PAUSE = 0.5  # time in seconds between two faults
-MEMORY = 300 << 20  # largest resident memory of the daemon, in bytes
+MEMORY = 300 << 20  # largest resident memory of the idle daemon, in bytes
 UPGRADE = ("GET /api/v1/models/{}/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: pmesh.v1\r\n\r\n")
 
 
 class LongWork(Work):
+    """Makes an operator's requests, which can be suspended. Continues after a broken connection as long as the daemon runs."""
+
     kept = 10
+
+    def __init__(self, daemon, token, dice, known):
+        super().__init__(daemon, token, dice, known)
+        self.daemon = daemon
+        self.may_work, self.is_suspended = threading.Event(), threading.Event()
+        self.may_work.set()
+
+    def one(self):
+        if not self.may_work.is_set():
+            self.is_suspended.set()
+            self.may_work.wait()
+        try:
+            super().one()
+        except Gone:
+            self.known.ordered.add(self.patched)  # the daemon may have ended this upload for lack of space
+            if self.daemon.process.poll() is not None:
+                raise
+
+    def make(self):
+        if len(open_jobs(self.client)) < BACKLOG:
+            super().make()
+
+    def suspend(self):
+        """Waits until the operator has suspended its requests. Returns immediately if the operator has ended."""
+        self.is_suspended.clear()
+        self.may_work.clear()
+        while self.is_alive() and not self.is_suspended.wait(0.1):
+            pass
+
+    def resume(self):
+        self.may_work.set()
+
+
+def open_jobs(client):
+    return [job for job in client.json("GET", "/api/v1/jobs?limit=50")[1].get("jobs", []) if job["ended"] is None]
 
 
 class LookAfterFaults(Look):
@@ -106,8 +155,14 @@ class Faults:
         self.clock.jump(0)
 
 
-def resident(daemon):
-    return int(re.search(r"VmRSS:\s+(\d+)", Path(f"/proc/{daemon.process.pid}/status").read_text(encoding="ascii"))[1]) << 10
+def check_growth(samples, most):
+    """Checks that an idle daemon grew little from the third to the fourth quarter. `samples` are pairs of memory and descriptors."""
+    half, quarter = len(samples) // 2, len(samples) // 4
+    memory, descriptors = ([min(part) for part in (values[half:-quarter], values[-quarter:])] for values in zip(*samples))
+    text = f"{memory[0] / 1e6:.1f} and {memory[1] / 1e6:.1f} MB, {descriptors[0]} and {descriptors[1]} descriptors in the third and fourth quarter"
+    assert memory[1] - memory[0] <= most, f"the memory grows: {text}"
+    assert descriptors[1] - descriptors[0] <= MORE_DESCRIPTORS, f"the number of descriptors grows: {text}"
+    return text
 
 
 def scrub(binaries, data):
@@ -124,22 +179,40 @@ class Soak:
         self.disk, self.clock, self.look = Disk(folder), Clock(folder), LookAfterFaults(binaries, self.data)
         self.token, self.reader = new_token(binaries, self.data), new_token(binaries, self.data, "viewer")
 
-    def live(self, seconds):
-        """Runs one daemon with faults for `seconds` seconds. Returns a line of text about the run."""
+    def idle(self, daemon, work, faults):
+        """Returns the daemon's memory and number of descriptors while no request and no job runs."""
+        faults.end()
+        work.suspend()
+        try:
+            client = Client(daemon, self.token)
+            self.look.until("a job does not end", lambda: not open_jobs(client))
+            client.connection.close()
+            return daemon.resident(), len(daemon.descriptors())
+        finally:
+            work.resume()  # otherwise its thread would never end
+
+    def live(self, progress, growth=None):
+        """Runs one daemon with faults until `progress(number of faults)` reaches 1. Checks its growth if the limit `growth` is given.
+
+        Returns a line of text about the run.
+        """
         preloaded = f"LD_PRELOAD={self.disk.library}:{self.clock.library}"
-        environment = ["env", *self.disk.environment()[1:], *self.clock.environment[1:], preloaded]  # the last LD_PRELOAD is the one in effect
-        daemon = Daemon(self.binaries, self.data, OPTIONS, environment)
+        environment = ["env", *self.disk.environment()[1:], *self.clock.environment[1:], preloaded,  # the last LD_PRELOAD is the one in effect
+                       "MALLOC_ARENA_MAX=1"]  # otherwise, memory also grows whenever another thread is the first to need much
+        daemon, samples, grown = Daemon(self.binaries, self.data, OPTIONS, environment), [], ""
         try:
             self.look.at(Client(daemon, self.token), self.known)
             faults = Faults(daemon, self.reader, self.disk, self.clock, self.dice)
             work = LongWork(daemon, self.token, random.Random(self.dice.random()), self.known)
             work.start()
-            end = time.monotonic() + seconds
-            while time.monotonic() < end and work.is_alive():
+            while (share := progress(sum(faults.seen.values()))) < 1 and work.is_alive():
+                if growth and share * SAMPLES >= len(samples):
+                    samples.append(self.idle(daemon, work, faults))
                 faults.one()
                 time.sleep(PAUSE)
-            faults.end()
-            memory = resident(daemon)
+            memory = self.idle(daemon, work, faults)[0]
+            if growth and work.is_alive():
+                grown = check_growth(samples, growth) + ", "
         except BaseException:
             daemon.kill()
             print("".join(line for line in daemon.printed[-40:] if "event=audit" not in line))
@@ -154,19 +227,35 @@ class Soak:
         scrub(self.binaries, self.data)
         self.known.made -= self.known.deleted
         kept = len(self.known.made)
-        return f"{memory / 1e6:.0f} MB, {self.look.ended} jobs ended, {kept} models kept, {dict(faults.seen)}, {end_by.__name__}"
+        return f"{grown}{memory / 1e6:.0f} MB, {self.look.ended} jobs ended, {kept} models kept, {dict(faults.seen)}, {end_by.__name__}"
+
+
+def run_for(soak, hours, dice):
+    """Runs daemons for `hours` hours."""
+    end, scale, number = time.monotonic() + 3600 * hours, min(1, hours / RUN), 0
+    while (left := end - time.monotonic()) > 0:
+        number += 1
+        is_long = number % 10 == 2  # the first long life is early, so that a short run contains it
+        seconds = min(left, dice.uniform(*LONG_LIFE) * scale if is_long else dice.uniform(*LIFE))
+        is_judged, start = is_long and seconds >= LONG_LIFE[0] * scale, time.monotonic()
+        limit = (GROWTH if scale == 1 else COLD_GROWTH) if is_judged else None
+        text = soak.live(lambda _, start=start, seconds=seconds: (time.monotonic() - start) / seconds, limit)
+        print(f"{left / 60:6.1f} min left: {text}", flush=True)
 
 
 def main():
-    binaries, hours = Path(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 10
+    binaries, length = Path(sys.argv[1]), sys.argv[2] if len(sys.argv) > 2 else str(RUN)
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else random.SystemRandom().randrange(1 << 32)
-    print(f"{hours} h, seed {seed}", flush=True)
+    print(f"{length}{' h' if length != 'brief' else ''}, seed {seed}", flush=True)
     with tempfile.TemporaryDirectory(prefix="vitrine-") as folder:
-        dice, end = random.Random(seed), time.monotonic() + 3600 * hours
+        dice = random.Random(seed)
         soak = Soak(binaries, Path(folder), dice)
-        while (left := end - time.monotonic()) > 0:
-            print(f"{left / 60:6.1f} min left: {soak.live(min(left, dice.uniform(*LIFE)))}", flush=True)
-        print(f"at the end: {soak.live(0)}")
+        if length == "brief":
+            for number, most in enumerate(BRIEF):
+                print(soak.live(lambda count, most=most: count / most, COLD_GROWTH if number == 1 else None), flush=True)
+        else:
+            run_for(soak, float(length), dice)
+        print(f"at the end: {soak.live(lambda _: 1)}")
         assert soak.look.verified, "no model was made"
     print("ok")
 

@@ -15,9 +15,9 @@ export class Nginx {
   /**
    * Starts nginx in front of the daemons at `origins`, each given as "127.0.0.1:PORT". The last
    * daemon has the scanner. `changes` are pairs [old, new] of texts to replace in the
-   * configuration.
+   * configuration. nginx receives PURGE requests at `purgePort`.
    */
-  static async start(origins, changes = []) {
+  static async start(origins, changes = [], purgePort = undefined) {
     const nginx = new Nginx();
     nginx.folder = await mkdtemp(join(tmpdir(), "vitrine-nginx-"));
     // Lets nginx's worker processes read the folder. They run as another user.
@@ -25,7 +25,7 @@ export class Nginx {
     nginx.port = await freePort();
     nginx.plainPort = await freePort();
     nginx.url = `https://localhost:${nginx.port}`;
-    await nginx.#configure(origins, changes);
+    await nginx.#configure(origins, changes, purgePort ?? await freePort());
     await promisify(execFile)(kProgram, [...nginx.#words(), "-t"]);
     await nginx.#begin();
     return nginx;
@@ -41,11 +41,10 @@ export class Nginx {
     await listens(this.port);
   }
 
-  async #configure(origins, changes) {
+  async #configure(origins, changes, purge) {
     const path = (name) => join(this.folder, name);
     this.certificate = path("cert.pem");
     this.cache = path("cache");
-    const purge = await freePort();
     this.purgeUrl = `http://127.0.0.1:${purge}`;
     execFileSync("openssl", ["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "90", "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost", "-keyout", path("key.pem"), "-out", this.certificate], { stdio: "ignore" });
     await writeFile(path("nginx.conf"), `daemon off; worker_processes 1; pid nginx.pid; events { worker_connections 1024; }

@@ -15,15 +15,16 @@ import { connect } from "node:tls";
 import { promisify } from "node:util";
 import { gunzipSync } from "node:zlib";
 import { Daemon } from "./daemon.mjs";
-import { Nginx } from "./nginx.mjs";
+import { freePort, Nginx } from "./nginx.mjs";
 
 const run = promisify(execFile);
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan } = process.env;
-let daemon, nginx, id, chunks, folder, ca;
+let daemon, nginx, purgePort, id, chunks, folder, ca; // nginx listens at purgePort in one test only
 
 before(async () => {
   folder = await mkdtemp(join(tmpdir(), "vitrine-"));
-  daemon = await Daemon.start(bin, ["--trusted-proxies", "127.0.0.1"]);
+  purgePort = await freePort();
+  daemon = await Daemon.start(bin, ["--trusted-proxies", "127.0.0.1", "--purge-urls", `http://127.0.0.1:${purgePort}`]);
   id = (await daemon.publish(scan, "Demosthenes")).split("/").pop();
   nginx = await Nginx.start([`127.0.0.1:${daemon.port}`]);
   ca = await readFile(nginx.certificate);
@@ -279,6 +280,24 @@ test("a purged chunk is gone, though its time is not over, and comes back once i
     do now = await ask();
     while (now.status === 404);
     assert.deepEqual(now.body, first.body);
+  } finally {
+    await front.stop();
+    await slow.stop();
+  }
+});
+
+test("the daemon purges the chunks of a withdrawn model by itself", async () => {
+  const slow = await OtherOrigin.start(daemon.port, 86400);
+  const front = await Nginx.start([`127.0.0.1:${slow.port}`], [], purgePort);
+  try {
+    const options = { ca: await readFile(front.certificate), agent: false };
+    const ask = () => Promise.all(chunks.map((chunk) => get(`${front.url}/api/v1/chunks/${chunk}`, options)));
+    const statuses = async () => new Set((await ask()).map(({ status }) => status));
+    assert.deepEqual(await statuses(), new Set([200]));
+    assert.equal((await change("unpublish")).status, 200);
+    for (let seen = await statuses(); seen.size > 1 || !seen.has(404); seen = await statuses());
+    assert.equal((await change("publish")).status, 200);
+    for (let seen = await statuses(); seen.size > 1 || !seen.has(200); seen = await statuses());
   } finally {
     await front.stop();
     await slow.stop();

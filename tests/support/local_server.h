@@ -103,9 +103,13 @@ class LocalServer {
 
   using NoFaults = Expected<std::vector<std::string>>;
   static constexpr std::uint8_t kPlain[] = {'p', 'l', 'a', 'i', 'n'}, kPacked[] = {'g', 'z'};
-  static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}},
-                                        {"/index.html", "text/html; charset=utf-8", {}},
-                                        {"/console.html", "text/html; charset=utf-8", {}},
+  static constexpr std::string_view kHtml = "text/html; charset=utf-8";
+  static constexpr WebAsset kPages[] = {{"/model.html", kHtml, {}},
+                                        {"/index.html", kHtml, {}},
+                                        {"/console.html", kHtml, {}},
+                                        {"/compare.html", kHtml, {}},
+                                        {"/scan.html", kHtml, {}},
+                                        {"/docs.html", kHtml, {}},
                                         {"/docs.js", "text/javascript", kPlain, kPacked}};
 
   TemporaryFolder folder_;

@@ -31,9 +31,17 @@ class Pages : public testing::Test {
 };
 
 TEST_F(Pages, OfWhateverNameHaveOnePolicyAndNoOtherSiteFramesThem) {
-  for (const char* path : {"/console", "/console.html"}) {
+  const test::TinyPmesh file = test::tiny_pmesh("the base", "a chunk");
+  ASSERT_TRUE(publish(server_.store(), server_.catalogue(), file.bytes,
+                      {.title = "A", .more = {{"collection", "Vases"}}}));
+  const auto policy = get("/console").field("content-security-policy");
+  EXPECT_THAT(policy, HasSubstr("; frame-ancestors 'none'"));
+  for (const char* path :
+       {"/", "/index.html", "/collections/Vases", "/compare.html", "/console", "/console.html",
+        "/docs", "/docs.html", "/scan.html", "/scans/01arz3ndektsv4rrffq69g5fav"}) {
     const auto answer = get(path);
-    EXPECT_THAT(answer.field("content-security-policy"), HasSubstr("; frame-ancestors 'none'"));
+    EXPECT_THAT(answer.field("content-type"), HasSubstr("text/html")) << path;
+    EXPECT_EQ(answer.field("content-security-policy"), policy) << path;
     EXPECT_EQ(answer.field("x-frame-options"), "DENY") << path;
   }
 }

@@ -140,13 +140,14 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  // Sends a request. A body is JSON if `fields` does not name its type.
   HttpAnswer ask(const std::string& method, const std::string& path, Role role,
-                 const std::string& body = "") {
+                 const std::string& body = "", std::string fields = "") {
+    if (fields.empty() && !body.empty()) fields = "Content-Type: application/json\r\n";
     test::HttpClient client(server.port());
     client.send(fmt::format("{} {} HTTP/1.1\r\nHost: localhost\r\n{}{}Content-Length: {}\r\n\r\n{}",
-                            method, path, tokens[static_cast<std::size_t>(role)],
-                            body.empty() ? "" : "Content-Type: application/json\r\n", body.size(),
-                            body));
+                            method, path, tokens[static_cast<std::size_t>(role)], fields,
+                            body.size(), body));
     HttpAnswer answer = client.receive();
     if (answer.field("content-type") != "text/event-stream") return answer;
     // The stream of a waiting job has one event and stays open. Any other stream is read until it
@@ -157,6 +158,14 @@ class World {
         answer.body += client.read_exactly(1);
     } catch (const std::runtime_error&) {  // the connection has ended as expected
     }
+    return answer;
+  }
+
+  // Returns a visitor's response to a HEAD request, and checks that nothing follows it.
+  HttpAnswer head(const std::string& path) {
+    test::HttpClient client(server.port());
+    const HttpAnswer answer = client.get(path, "Connection: close\r\n", "HEAD");
+    EXPECT_TRUE(client.is_closed()) << "a body follows the response to HEAD " << path;
     return answer;
   }
 
@@ -468,10 +477,11 @@ class Walk {
     const char* method = kMethods[static_cast<std::size_t>(route.method)];
     for (const std::string& path : expanded(std::string(route.path), values(reads || !may))) {
       for (const std::string& query : queries_of(route.path, world_.model)) {
-        const HttpAnswer answer = world_.ask(method, path + query, role);
+        const HttpAnswer answer = send(route, path, query, role);
         const auto request =
             fmt::format("{} {} {}{}", kRoles[static_cast<std::size_t>(role)], method, path, query);
         check(answer, request, role, may);
+        if (reads && role == Role::kNone) read_otherwise(path + query, answer.status);
         const bool fails =
             state_.model_status == kDamaged && may && reads && needs_file(route.path, path + query);
         EXPECT_EQ(answer.status >= 500 ? answer.status : 0, fails ? kDamaged : 0)
@@ -479,6 +489,29 @@ class Walk {
         matrix_.record(fmt::format("{} {}", method, route.path), column(role), answer.status);
       }
     }
+  }
+
+  // Sends the query in the target, or in the body if the route reads a form.
+  HttpAnswer send(const ApiRoute& route, const std::string& path, const std::string& query,
+                  Role role) {
+    const char* method = kMethods[static_cast<std::size_t>(route.method)];
+    if (route.method != Method::kPost || route.body != BodyKind::kForm)
+      return world_.ask(method, path + query, role);
+    const HttpAnswer answer = world_.ask(method, path, role, query.substr(1),
+                                         "Content-Type: application/x-www-form-urlencoded\r\n");
+    EXPECT_EQ(answer.body.find("badVerb"), answer.body.npos) << "the form is not read";
+    return answer;
+  }
+
+  // Sends a visitor's HEAD request, and a request for a range, of a target to which GET responds
+  // with `status`.
+  void read_otherwise(const std::string& target, int status) {
+    EXPECT_EQ(world_.head(target).status, status) << "HEAD " << target;
+    const HttpAnswer part = world_.ask("GET", target, Role::kNone, "", "Range: bytes=1-\r\n");
+    check(part, "a range of " + target, Role::kNone, true);
+    const bool is_empty = part.status == 416;  // the pages of this server
+    EXPECT_EQ(part.status == 206 || is_empty ? 200 : part.status, status)
+        << "a range of " << target;
   }
 
   void check(const HttpAnswer& answer, const std::string& request, Role role, bool may) {

@@ -130,6 +130,34 @@ TEST(Proxies, AreBelievedWhereTheyAreTrusted) {
   }
 }
 
+TEST(ShortAddresses, StandInAllLogs) {
+  ServedFolder folder;
+  const std::string id = folder.publish("A small bust");
+  Daemon daemon(folder.path(), {"--log-addresses", "short", "--trusted-proxies", "127.0.0.1"});
+  const std::string client = "X-Forwarded-For: 192.0.2.7\r\n";
+  http_get(daemon.port(), "/api/v1/models/" + id, client);
+  http_get(daemon.port(), "/nothing", client);
+  http_get(daemon.port(), "/api/v1/uploads", client, "DELETE");
+  http_get(daemon.port(), "/api/v1/models/" + id, client, "DELETE");
+  {
+    WebSocketClient stream(daemon.port(), "/api/v1/models/" + id + "/stream?head=true", "pmesh.v1",
+                           client);
+    stream.receive();
+    http_get(daemon.port(), "/nothing");  // from the proxy itself
+  }
+  daemon.signal(SIGTERM);
+  const ProgramResult result = daemon.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, HasSubstr("event=audit"));
+  EXPECT_THAT(daemon.access_log(), HasSubstr("/stream"));
+  for (const std::string& text : {result.output, daemon.access_log()}) {
+    EXPECT_THAT(text, HasSubstr(" remote=192.0.2.0/24 "));
+    EXPECT_THAT(text, Not(HasSubstr("192.0.2.7")));
+    EXPECT_THAT(text, Not(HasSubstr("remote=127.0.0.1")));
+  }
+  EXPECT_THAT(daemon.access_log(), HasSubstr(" remote=127.0.0.0/24 "));
+}
+
 std::string from(const std::string& address) {
   return "X-Forwarded-For: " + address + "\r\n";
 }

@@ -43,6 +43,22 @@ class CopyingStore final : public test::StoreBefore {
   const std::filesystem::path copy_;
 };
 
+// A store whose objects consist of kPieces pieces, each of which may take a second at the default
+// rate.
+class StoreInPieces final : public test::StoreBefore {
+ public:
+  static constexpr std::size_t kPieces = 5;
+
+  using StoreBefore::StoreBefore;
+  Expected<ObjectState> check(const Sha256&, const OnPiece& on_piece) const override {
+    for (std::size_t i = 0; i < kPieces; ++i) {
+      if (!on_piece(Scrubber::kDefaultRate))
+        return tl::unexpected(Error{ErrorCode::kIo, "stopped"});
+    }
+    return ObjectState::kIntact;
+  }
+};
+
 class ScrubberTest : public testing::Test {
  protected:
   ModelId add(const std::string& title) {
@@ -152,6 +168,30 @@ TEST_F(ScrubberTest, FaultsOfTheCatalogueAreCountedAndLogged) {
   faults_ = {};
   scrubber_.check_all();
   EXPECT_EQ(scrubber_.catalogue_faults, 0u);
+}
+
+TEST_F(ScrubberTest, EachPieceIsWaitedForAsTheRateDemands) {
+  add("vase");
+  add("bust");
+  std::vector<std::chrono::steady_clock::time_point> waits;
+  const StoreInPieces store(*in_.store);
+  Scrubber scrubber({.store = store,
+                     .catalogue = *in_.catalogue,
+                     .models = models_,
+                     .catalogue_faults = [] { return std::vector<std::string>(); },
+                     .events = events_,
+                     .wait_until =
+                         [&](auto time) {
+                           waits.push_back(time);
+                           return true;
+                         }});
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(scrubber.check_all());
+  EXPECT_EQ(scrubber.bytes, 2 * StoreInPieces::kPieces * Scrubber::kDefaultRate);
+  ASSERT_EQ(waits.size(), 2 * StoreInPieces::kPieces);
+  EXPECT_GE(waits.front() - start, std::chrono::seconds(1));
+  for (std::size_t i = 1; i < waits.size(); ++i)
+    EXPECT_GE(waits[i] - waits[i - 1], std::chrono::seconds(1)) << i;
 }
 
 TEST_F(ScrubberTest, AStopDoesNotWaitForTheRate) {
