@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a picture as a PNG file.
+// Writes a picture as a PNG file [PNG].
 #pragma once
 
 #include "codec/core/expected.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a picture as a JPEG file.
+// Writes a picture as a JPEG file [JPEG].
 #pragma once
 
 #include <cstdint>

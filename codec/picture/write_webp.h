@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a picture as a WebP file.
+// Writes a picture as a WebP file [WebP].
 #pragma once
 
 #include <cstdint>
