@@ -124,7 +124,8 @@ std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const 
 }
 
 std::size_t PublishedModels::HashOfScope::operator()(const Scope& scope) const noexcept {
-  // Uses the last bytes of the ID, because the first bytes encode a time.
+  // The first bytes of an ID encode the time of its creation, so they are alike in models published
+  // together. The last eight bytes are random.
   std::array<std::uint8_t, 8> random;
   std::copy(scope.id.bytes().begin() + 8, scope.id.bytes().end(), random.begin());
   return first_word(random) + (scope.is_whole ? 1 : 0);
