@@ -112,7 +112,7 @@ class Module:
     """A module: its row in ARCHITECTURE.md, and the other modules and the libraries that its sources include."""
 
     def __init__(self, line, cells):
-        self.line, self.name = line, cells[0].strip("` ")
+        self.line, self.name = line, cells[0].split("`")[1]
         self.modules, self.libraries = cells[2].split(), cells[3].split()
         self.used_modules, self.used_libraries = set(), set()
 

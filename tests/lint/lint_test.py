@@ -10,7 +10,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 SPDX = "// SPDX-License-Identifier: Apache-2.0\n"
-CORE = "| `codec/core` | The core. | | |\n"
+CORE = "| `codec/core` (hot) | The core. | | |\n"
 MESH = "| `codec/mesh` | The mesh. | codec/core | |\n"
 
 
