@@ -14,4 +14,7 @@ std::unique_ptr<Catalogue> make_catalogue(std::shared_ptr<sql::Database> databas
 std::unique_ptr<JobCatalogue> make_jobs(std::shared_ptr<sql::Database> database);
 std::unique_ptr<VisitCatalogue> make_visits(std::shared_ptr<sql::Database> database);
 
+// Lists the models by the time of their last change; see Catalogue::harvest(). Throws a Failure.
+Harvest harvest_models(sql::DatabaseConnection& connection, const HarvestQuery& query);
+
 }  // namespace vitrine::server
