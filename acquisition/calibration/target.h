@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The calibration target, a ChArUco board: a chessboard with a marker in each white square.
+// The calibration target, a ChArUco board [ChArUco]: a chessboard with a marker in each white
+// square.
 #pragma once
 
 #include <string>

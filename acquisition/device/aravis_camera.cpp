@@ -51,6 +51,7 @@ class AravisError {
   GError* error_ = nullptr;
 };
 
+// A camera whose features have the names of [GenICam].
 class AravisCamera final : public Camera {
  public:
   AravisCamera(AravisRef<ArvCamera> camera, std::string name)

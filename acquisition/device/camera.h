@@ -54,8 +54,8 @@ class Camera {
 };
 
 // Selects a camera by IP address or by serial number; exactly one must be set. An address selects a
-// GigE Vision camera without a broadcast on the network. A serial number selects a GigE Vision
-// camera on any interface, or a USB3 Vision camera.
+// GigE Vision camera [GigEVision] without a broadcast on the network. A serial number selects a
+// GigE Vision camera on any interface, or a USB3 Vision camera [USB3Vision].
 struct CameraSelector {
   std::string address;
   std::string serial;

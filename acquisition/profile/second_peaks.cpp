@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/profile/second_peaks.h"
+#include "acquisition/profile/stripe_steps.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/profile/steady_rows.h"
+#include "acquisition/profile/stripe_steps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,7 @@
 #include <iterator>
 
 #include "acquisition/profile/peaks.h"
-#include "acquisition/profile/second_peaks.h"
-#include "acquisition/profile/steady_rows.h"
-#include "acquisition/profile/stripe_path.h"
+#include "acquisition/profile/stripe_steps.h"
 #include "acquisition/profile/sub_pixel.h"
 
 namespace vitrine::acquisition {

@@ -24,11 +24,11 @@ namespace vitrine::acquisition {
 
 // How often and how long a scan retries after it has lost a device.
 struct RetryLimits {
-  int tries = 60;  // number of attempts to resume without completing a step in between
+  int tries = 60;  // number of consecutive attempts to resume that complete no step
   // Number of attempts to start. The first attempt may fail because a killed process still holds a
   // device.
   int first_tries = 10;
-  // Number of attempts to turn a stalled table without completing a step in between. A jam does not
+  // Number of consecutive attempts to turn a stalled table that complete no step. A jam does not
   // clear itself, and each attempt makes the table's angle less certain.
   int turns = 2;
   std::chrono::milliseconds between{500};

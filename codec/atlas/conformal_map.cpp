@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/atlas/conformal_map.h"
+#include "codec/atlas/flat_maps.h"
 
 #include <algorithm>
 #include <array>

@@ -6,9 +6,7 @@
 #include <limits>
 
 #include "codec/atlas/chart_areas.h"
-#include "codec/atlas/circle.h"
-#include "codec/atlas/conformal_map.h"
-#include "codec/atlas/tutte_embedding.h"
+#include "codec/atlas/flat_maps.h"
 #include "codec/mesh/symmetric_dirichlet.h"
 
 namespace vitrine::inline codec {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/atlas/tutte_embedding.h"
+#include "codec/atlas/flat_maps.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "codec/atlas/circle.h"
 #include "codec/atlas/conjugate_gradients.h"
+#include "codec/atlas/flat_maps.h"
 
 namespace vitrine::inline codec {
 namespace {

@@ -12,7 +12,7 @@
 #include "codec/core/limits.h"
 #include "codec/core/printable.h"
 #include "codec/picture/decode_picture.h"
-#include "codec/picture/write_webp.h"
+#include "codec/picture/write_picture.h"
 
 namespace vitrine::inline codec {
 namespace {

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "codec/picture/decode_picture.h"
-#include "codec/picture/png_file.h"
-#include "codec/picture/write_jpeg.h"
+#include "codec/picture/write_picture.h"
 
 namespace vitrine::inline codec {
 namespace {

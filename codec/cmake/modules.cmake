@@ -35,9 +35,8 @@ target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr
 
 # Shipped modules and programs abort on a memory fault instead of continuing with damaged data: on a
 # write past an array on the stack, a copy past a buffer or an index past the end of a container.
-# They load at random addresses, and their relocation tables are read-only. Modules that build and
-# refine meshes do not check indices, which would make decoding over 10 % slower; their tests and
-# fuzzers run with sanitizers.
+# They load at random addresses, and their relocation tables are read-only. Modules that ARCHITECTURE.md
+# marks (hot) do not check indices.
 # Tests are compiled without optimisation, which _FORTIFY_SOURCE needs, and sanitizers have checks
 # of their own. Both therefore get none of these options. tests/bench/hardening measures the cost.
 option(VITRINE_HARDENED "Compile with protections against memory faults; turn off only to measure their cost" ON)
@@ -72,6 +71,23 @@ function(vitrine_folders top out)
   set(${out} ${rows} PARENT_SCOPE)
 endfunction()
 
+# vitrine_reach(codec/wasm out): sets `out` to the module and all modules that it uses, directly or not.
+function(vitrine_reach folder out)
+  set(waiting ${folder})
+  set(reach)
+  while(waiting)
+    list(POP_FRONT waiting module)
+    list(APPEND reach ${module})
+    file(STRINGS ${VITRINE_ARCHITECTURE} row REGEX "^\\| `${module}`")
+    string(REGEX REPLACE "^.*\\|([^|]*)\\|[^|]*\\|$" "\\1" used "${row}")
+    separate_arguments(used)
+    list(APPEND waiting ${used})
+    list(REMOVE_DUPLICATES waiting)
+    list(REMOVE_ITEM waiting ${reach})
+  endwhile()
+  set(${out} ${reach} PARENT_SCOPE)
+endfunction()
+
 # vitrine_libraries_of(codec out): sets `out` to the libraries that the modules below `codec` use.
 function(vitrine_libraries_of top out)
   vitrine_rows(${top} rows)
@@ -88,33 +104,33 @@ endfunction()
 function(vitrine_modules top)
   vitrine_rows(${top} rows)
   foreach(row IN LISTS rows)
-    string(REGEX MATCH "^\\| `([^`]+)` \\|[^|]*\\|([^|]*)\\|([^|]*)\\|$" matched "${row}")
+    string(REGEX MATCH "^\\| `([^`]+)`( \\(hot\\))? \\|[^|]*\\|([^|]*)\\|([^|]*)\\|$" matched "${row}")
     if(NOT matched)
       message(FATAL_ERROR "codec/ARCHITECTURE.md: this row has other than four columns: ${row}")
     endif()
     set(folder ${CMAKE_MATCH_1})
-    string(STRIP "${CMAKE_MATCH_2}" modules)
-    string(STRIP "${CMAKE_MATCH_3}" libraries)
+    set(hardened vitrine_hardened_with_indices)
+    if(CMAKE_MATCH_2)
+      set(hardened vitrine_hardened)
+    endif()
+    string(STRIP "${CMAKE_MATCH_3}" modules)
+    string(STRIP "${CMAKE_MATCH_4}" libraries)
     separate_arguments(modules)
     separate_arguments(libraries)
-    vitrine_module(${folder} MODULES ${modules} LIBRARIES ${libraries})
+    vitrine_module(${folder} HARDENED ${hardened} MODULES ${modules} LIBRARIES ${libraries})
   endforeach()
 endfunction()
 
 # Creates a static library from the folder's sources, without its programs (main.cpp, *_main.cpp).
 function(vitrine_module folder)
-  cmake_parse_arguments(module "" "" "MODULES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(module "" "HARDENED" "MODULES;LIBRARIES" ${ARGN})
   vitrine_module_target(${folder} target)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "main\\.cpp$")
   if(sources)
     add_library(${target} STATIC ${sources})
     set(scope PUBLIC)
-    if(folder MATCHES "^codec/(atlas|build|coding|distance|mesh|plan|refine|render|simplify)$")
-      target_link_libraries(${target} PRIVATE vitrine_flags vitrine_hardened)
-    else()
-      target_link_libraries(${target} PRIVATE vitrine_flags vitrine_hardened_with_indices)
-    endif()
+    target_link_libraries(${target} PRIVATE vitrine_flags ${module_HARDENED})
     vitrine_unity(${target})
     # Compiles the server's modules without optimisation: they spend more time waiting than
     # computing, and a sanitised build spends most of its time compiling.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/coding/component_decoder.h"
+#include "codec/coding/layer_decoder.h"
 
 #include <memory>
 

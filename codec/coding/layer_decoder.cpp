@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "codec/coding/component_decoder.h"
+#include "codec/coding/layer_decoder.h"
 #include "codec/coding/region_fork.h"
 
 namespace vitrine::inline codec {

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "codec/coding/layer_pass.h"
+#include "codec/coding/mesh_state.h"
 #include "codec/core/expected.h"
+#include "codec/core/range_coder.h"
+#include "codec/format/chunk_frame.h"
 #include "codec/format/region_tree.h"
 
 namespace vitrine::inline codec {
@@ -23,5 +26,10 @@ struct LayerChange {
 // on hostile bytes. After an error, `mesh` can be destroyed safely but must not be used.
 Expected<LayerChange> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
                                    std::uint32_t node, std::span<const std::uint8_t> bytes);
+
+// Decodes the component insertions of a chunk, which follow its vertex splits. Inserts them
+// into `mesh` and returns them in coded order. Errors are as in decode_layer().
+Expected<std::vector<InsertedComponent>> decode_components(MeshState& mesh, const ChunkFrame& frame,
+                                                           RangeDecoder& coder);
 
 }  // namespace vitrine::inline codec

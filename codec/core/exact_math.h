@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mathematical functions on which decoding depends. They use only the four basic operations,
-// square roots and bit operations, so results are bit-identical on every machine. Code that
-// includes this header must be compiled with -ffp-contract=off.
+// The mathematical functions on which decoding depends. They use only the four basic operations and
+// square roots of [IEEE754] and bit operations, so results are bit-identical on every machine. Code
+// that includes this header must be compiled with -ffp-contract=off.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive binary range coder (G. N. N. Martin, 1979). Output bytes are held back until no carry
-// can change them any more.
+// Adaptive binary range coder [Martin79]. Output bytes are held back until no carry can change them
+// any more.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 (FIPS 180-4). Stored objects are named by this hash.
+// SHA-256 [FIPS180]. Stored objects are named by this hash.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts between sRGB-coded values (IEC 61966-2-1) and linear light.
+// Converts between sRGB-coded values [sRGB] and linear light.
 #pragma once
 
 #include <cmath>

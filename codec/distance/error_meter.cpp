@@ -61,7 +61,7 @@ void add_worst(HausdorffBound& bound, const SampledErrors& sampled, const Region
                const WitnessSurface& target) {
   for (const Worst& w : sampled.worst) {
     bound.choose(source.regions(w.triangle)[0]);
-    bound.know(std::sqrt(w.at_least));
+    bound.know_distance(std::sqrt(w.at_least));
     bound.add(source.bvh.triangle(w.triangle), target, w.nearest);
   }
 }

@@ -111,7 +111,7 @@ void HausdorffBound::add(const TrianglePoints& triangle, const WitnessSurface& t
   cover(ConvexPiece(triangle), last_);
 }
 
-void HausdorffBound::know(double distance) {
+void HausdorffBound::know_distance(double distance) {
   regions_[region_].known = std::max(regions_[region_].known, distance);
   known_ = std::max(known_, distance);
 }
@@ -203,7 +203,7 @@ void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   // The walk from triangle to triangle may have ended on another sheet of the surface. Therefore
   // searches the whole target for the closest triangle.
   const ClosestTriangle nearest = search(centre, last_);
-  know(std::sqrt(nearest.at_least));
+  know_distance(std::sqrt(nearest.at_least));
   if (nearest.triangle != last_) {
     last_ = nearest.triangle;
     if (lay_patch(all, triangle, t)) return;
@@ -302,7 +302,7 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   spend();
   const Vec3 centre = piece.centre();
   const ClosestTriangle middle = search(centre, witness);
-  know(std::sqrt(middle.at_least));
+  know_distance(std::sqrt(middle.at_least));
   if (settle(piece.corners(), middle.triangle)) return;
   // A point's distance to the target changes by at most the length of the point's move, because the
   // distance is 1-Lipschitz.
@@ -314,7 +314,7 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   for (const Vec3& p : piece.corners()) {
     const double known = regions_[region_].known;
     if (target_->farthest_within({&p, 1}, witness, known) <= known) continue;
-    know(std::sqrt(search(p, middle.triangle).at_least));
+    know_distance(std::sqrt(search(p, middle.triangle).at_least));
   }
   halve(piece, middle.triangle);
 }

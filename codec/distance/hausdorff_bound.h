@@ -60,9 +60,9 @@ class HausdorffBound {
 
   // Records a distance that occurs between the two surfaces in the chosen region. Knowing a large
   // distance early saves time later.
-  void know(double distance);
+  void know_distance(double distance);
 
-  // Chooses the region to which know() and the single-triangle add() apply.
+  // Chooses the region to which know_distance() and the single-triangle add() apply.
   void choose(std::uint16_t region) { region_ = region; }
 
   // Adds the distances from every point of `triangle` to `target`. `near` is a triangle of `target`

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Conversions between lattice positions and the cells of coarse levels. In a level with shift s, a
 // cell has sides of 2^s lattice units. A vertex is stored as the middle of its cell, in lattice
-// units.
+// units. Coarse levels thus store fewer bits, as in [VCP09].
 #pragma once
 
 #include <cstdint>

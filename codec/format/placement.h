@@ -27,7 +27,8 @@ constexpr Vec3i midpoint_term(std::int32_t parity) {
 // Returns the term r of pyramid placement ([WLL] eq. 8, or eq. 11 for a boundary edge, which has
 // only one opposite vertex). r = 2 (sum(opposite) / 4m - sum(others) / 4n), rounded half up, plus
 // `parity`. `opposite` holds the m vertices opposite to the edge. `others` holds the n other
-// neighbours. Virtual vertices are left out. Returns midpoint_term(parity) if m or n is 0.
+// neighbours. With m = 2 and n = 4 the weights are those of [DLG90]. Virtual vertices are left out.
+// Returns midpoint_term(parity) if m or n is 0.
 Vec3i pyramid_term(std::span<const Vec3i> opposite, std::span<const Vec3i> others,
                    std::int32_t parity);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes data embedded in a URI (RFC 2397).
+// Decodes data embedded in a URI [RFC2397].
 #pragma once
 
 #include <cstdint>

@@ -22,6 +22,12 @@ struct ImportFormat {
   Expected<RawMesh> (*read)(std::span<const std::uint8_t> bytes, const ReadOptions& options);
   // Returns the unit that the file states, or an empty string.
   std::string_view (*unit)(std::span<const std::uint8_t> bytes);
+  // If a package or folder has files of one model in several formats, the file with the lowest rank
+  // is read. Formats that can store more data have lower ranks.
+  unsigned package_rank;
+  // Whether modelling programs write the format. Such files often only accompany a model, so they
+  // are ignored beside files of other formats.
+  bool is_scene = false;
 };
 
 // A file is read by the first format that recognises it. STL comes before the formats that are
@@ -32,47 +38,58 @@ inline constexpr ImportFormat kImportFormats[] = {
      .extension = "ply",
      .recognises = is_ply,
      .read = read_ply,
-     .unit = unit_in_comments},
+     .unit = unit_in_comments,
+     .package_rank = 3},
     {.name = "GLB",
      .extension = "glb",
      .recognises = is_glb,
      .read = read_glb,
-     .unit = unit_of_gltf},
+     .unit = unit_of_gltf,
+     .package_rank = 0},
     {.name = "glTF",
      .extension = "gltf",
      .recognises = is_gltf,
      .read = read_gltf,
-     .unit = unit_of_gltf},
+     .unit = unit_of_gltf,
+     .package_rank = 1},
     {.name = "STL",
      .extension = "stl",
      .recognises = is_stl,
      .read = read_stl,
-     .unit = unit_in_comments},
+     .unit = unit_in_comments,
+     .package_rank = 6},
     {.name = "OFF",
      .extension = "off",
      .recognises = is_off,
      .read = read_off,
-     .unit = unit_in_comments},
+     .unit = unit_in_comments,
+     .package_rank = 5},
     {.name = "3MF",
      .extension = "3mf",
      .recognises = is_3mf,
      .read = read_3mf,
-     .unit = unit_of_3mf},
+     .unit = unit_of_3mf,
+     .package_rank = 4},
     {.name = "DAE",
      .extension = "dae",
      .recognises = is_dae,
      .read = read_dae,
-     .unit = unit_of_dae},
+     .unit = unit_of_dae,
+     .package_rank = 8,
+     .is_scene = true},
     {.name = "FBX",
      .extension = "fbx",
      .recognises = is_fbx,
      .read = read_fbx,
-     .unit = unit_of_fbx},
+     .unit = unit_of_fbx,
+     .package_rank = 7,
+     .is_scene = true},
     {.name = "OBJ",
      .extension = "obj",
      .recognises = is_obj,
      .read = read_obj,
-     .unit = unit_in_comments},
+     .unit = unit_in_comments,
+     .package_rank = 2},
 };
 
 // The text "PLY, GLB, glTF, STL, OFF, 3MF, DAE, FBX or OBJ".

@@ -17,10 +17,13 @@
 namespace vitrine::inline codec {
 namespace {
 
-// File name extensions of models. Formats that can store more data come first. Formats of modelling
-// programs come last, because such files often only accompany the model.
-constexpr std::array<std::string_view, std::size(kImportFormats)> kByContents{
-    ".glb", ".gltf", ".obj", ".ply", ".3mf", ".off", ".stl", ".fbx", ".dae"};
+consteval bool ranks_differ() {
+  for (const ImportFormat& format : kImportFormats)
+    for (const ImportFormat& other : kImportFormats)
+      if (&format != &other && format.package_rank == other.package_rank) return false;
+  return true;
+}
+static_assert(ranks_differ(), "two formats of codec/import/formats.h have the same package_rank");
 
 // Returns the path of a model as the user knows it. A 3MF file is a package; unpack() returns its
 // part 3D/3dmodel.model, which lists the objects. For such a part, returns the path of the 3MF
@@ -39,12 +42,12 @@ bool is_hidden(std::string_view path) {
          path.find("__MACOSX/") != path.npos;
 }
 
-// Returns the index of the name's extension in kByContents, or nullopt if kByContents lacks it.
-std::optional<std::size_t> model_kind(std::string_view key) {
-  const auto* found = std::ranges::find_if(
-      kByContents, [&](std::string_view extension) { return key.ends_with(extension); });
-  if (found == kByContents.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - kByContents.begin());
+// Returns the format of the name's extension, or null if no mesh file has that extension.
+const ImportFormat* format_by_name(std::string_view key) {
+  const std::size_t dot = key.rfind('.');
+  const auto* found = std::ranges::find(kImportFormats, dot == key.npos ? "" : key.substr(dot + 1),
+                                        &ImportFormat::extension);
+  return found == std::end(kImportFormats) ? nullptr : found;
 }
 
 bool is_package_name(std::string_view key) {
@@ -56,7 +59,7 @@ bool is_package_name(std::string_view key) {
 bool is_wanted(std::string_view path) {
   if (is_hidden(path)) return false;
   const std::string key = name_key(path);
-  return model_kind(key) || is_package_name(key) || key.ends_with(".model") ||
+  return format_by_name(key) || is_package_name(key) || key.ends_with(".model") ||
          companion_kind(key) != CompanionKind::kOther;
 }
 
@@ -84,30 +87,30 @@ std::optional<LodMark> lod_mark(std::string_view text) {
 
 // A file that may be the model.
 struct Candidate {
-  std::size_t file;   // index in the files of the package or folder
-  std::string model;  // name without folders, extension and level-of-detail mark
-  unsigned level;     // level of detail; 0 is the most detailed
-  std::size_t kind;   // index in kByContents
+  std::size_t file;            // index in the files of the package or folder
+  std::string model;           // name without folders, extension and level-of-detail mark
+  unsigned level;              // level of detail; 0 is the most detailed
+  const ImportFormat* format;  // a row of kImportFormats
 
-  auto order() const { return std::pair(level, kind); }
+  auto order() const { return std::pair(level, format->package_rank); }
   // Whether this is a file of a modelling program.
-  bool is_scene() const { return kByContents[kind] == ".fbx" || kByContents[kind] == ".dae"; }
+  bool is_scene() const { return format->is_scene; }
 };
 
-Candidate candidate(std::size_t file, const std::string& path, std::size_t kind) {
+Candidate candidate(std::size_t file, const std::string& path, const ImportFormat& format) {
   std::string name = name_key(path);
-  name.resize(name.size() - kByContents[kind].size());
+  name.resize(name.size() - format.extension.size() - 1);
   if (const auto mark = lod_mark(name)) name.erase(mark->begin, mark->size);
   const auto level = lod_mark(lower_case(path));
-  return {file, name, level ? level->number : 0, kind};
+  return {file, name, level ? level->number : 0, &format};
 }
 
 std::vector<Candidate> candidates_in(std::span<const std::string> paths) {
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string path = visible_path(paths[i]);
-    const auto kind = model_kind(name_key(path));
-    if (kind && !is_hidden(path)) candidates.push_back(candidate(i, path, *kind));
+    const ImportFormat* format = format_by_name(name_key(path));
+    if (format && !is_hidden(path)) candidates.push_back(candidate(i, path, *format));
   }
   std::ranges::stable_sort(candidates, {}, &Candidate::order);
   return candidates;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads OFF (Geomview): vertices and polygons. The letters in the keyword say whether vertices have
-// normals and colours.
+// Reads OFF, the format of Geomview [OFF]: vertices and polygons. The letters in the keyword say
+// whether vertices have normals and colours.
 #include <algorithm>
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads STL, text or binary. Triangles in STL do not share vertices, so the reader merges vertices
-// with equal positions.
+// Reads STL [STL], text or binary. Triangles in STL do not share vertices, so the reader merges
+// vertices with equal positions.
 #include <algorithm>
 #include <cmath>
 #include <optional>

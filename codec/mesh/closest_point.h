@@ -24,8 +24,8 @@ inline Vec3 normal_of(const TrianglePoints& t) noexcept {
 Vec3 closest_point_of_edges(const TrianglePoints& triangle, const Vec3& p) noexcept;
 
 // Returns the point of the triangle closest to `p`. Finds the Voronoi region of the triangle that
-// contains `p` (Ericson, Real-Time Collision Detection, section 5.1.5). Triangles without area are
-// treated as segments or points.
+// contains `p` ([Ericson05] section 5.1.5). Triangles without area are treated as segments or
+// points.
 inline Vec3 closest_point(const TrianglePoints& t, const Vec3& p) noexcept {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);

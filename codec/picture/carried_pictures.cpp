@@ -2,7 +2,7 @@
 #include "codec/picture/carried_pictures.h"
 
 #include "codec/picture/decode_picture.h"
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 
 namespace vitrine::inline codec {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes PNG, JPEG, WebP, TIFF, BMP and TGA pictures.
+// Decodes PNG [PNG], JPEG [JPEG], WebP [WebP], TIFF [TIFF], BMP and TGA pictures.
 #pragma once
 
 #include <cstdint>

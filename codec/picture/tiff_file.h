@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the first page of a TIFF file.
+// Reads the first page of a TIFF file [TIFF].
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/picture/write_jpeg.h"
+#include "codec/picture/write_picture.h"
 
 #include <turbojpeg.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the missing chunk that improves a camera's view the most.
+// Chooses the missing chunk that improves a camera's view the most. [Hoppe97] refines single
+// vertices by the same measure, an error in pixels; this code chooses whole regions.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/repair/fan_splitter.h"
+#include "codec/repair/manifold.h"
 
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 

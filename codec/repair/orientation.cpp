@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/repair/orientation.h"
+#include "codec/repair/manifold.h"
 
 #include <utility>
 #include <vector>

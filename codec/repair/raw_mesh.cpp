@@ -6,7 +6,7 @@
 
 #include "codec/repair/face_texturing.h"
 #include "codec/repair/keep_vertices.h"
-#include "codec/repair/seams.h"
+#include "codec/repair/raw_mesh.h"
 #include "codec/repair/weld.h"
 
 namespace vitrine::inline codec {

@@ -2,6 +2,8 @@
 // The mesh that readers build: vertices, and faces with any number of corners.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -13,11 +15,20 @@
 #include "codec/core/printable.h"
 #include "codec/core/vec.h"
 #include "codec/mesh/texturing.h"
+#include "codec/mesh/vertex_attributes.h"
 #include "codec/repair/face_list.h"
-#include "codec/repair/grow_within.h"
 #include "codec/repair/imported_mesh.h"
 
 namespace vitrine::inline codec {
+
+// Reserves room for `size` elements, which must not exceed `most`. The capacity doubles, as with
+// push_back(), but never exceeds `most`. Many calls therefore take linear time, and the vector
+// never gets larger than the file's data can require.
+template <class T>
+void grow_within(std::vector<T>& column, std::size_t size, std::size_t most) {
+  if (size > column.capacity())
+    column.reserve(std::max(size, std::min(2 * column.capacity(), most)));
+}
 
 class RawMesh {
  public:
@@ -27,7 +38,7 @@ class RawMesh {
   // Whether the file repeats vertices by design. This is the case if each face has its own
   // vertices, or if vertices are repeated where an attribute such as normals is discontinuous. If
   // true, all vertices with equal positions and colours are merged. If false, only vertices along
-  // matching borders are merged (see seams.h).
+  // matching borders are merged (weld_seams()).
   bool has_seams = false;
   // Whether the colours were sampled from pictures or materials. If true, vertices are merged even
   // if their colours differ, and their colours are averaged.
@@ -57,7 +68,7 @@ class RawMesh {
   // Sets the material of all faces added after this call. The initial material is 0.
   void use_material(std::uint16_t material) { faces_.use_material(material); }
   void reserve_faces(std::size_t count) { faces_.triangles.reserve(count); }
-  // Reserves room for `count` triangles; see grow_within.h.
+  // Reserves room for `count` triangles; see grow_within().
   void grow_faces(std::size_t count, std::size_t most) {
     grow_within(faces_.triangles, count, most);
   }
@@ -82,6 +93,19 @@ class RawMesh {
   std::uint32_t max_index_ = 0;
   std::uint64_t max_index_face_ = 0, max_index_line_ = 0;
 };
+
+// Closes seams. A seam is a border along which a file repeats its vertices.
+//
+// Merges the vertices that are repeated along seams. Two border edges lie on a seam if they join
+// the same two points with the same attributes. The ends of these two edges are then merged, unless
+// one of the two faces is a copy or the reverse of the other. Coinciding vertices are not merged in
+// three cases: their border edges do not coincide; they lie along an inner edge; or three or more
+// border edges coincide.
+//
+// The remaining vertices keep their order. Returns the new index of each old vertex. Positions used
+// by faces must be finite. Takes O(n log n) time.
+std::vector<std::uint32_t> weld_seams(std::vector<Vec3>& positions, VertexAttributes& attributes,
+                                      std::span<const Triangle> faces);
 
 // Returns the number and the noun, in the plural if needed: "3 faces", "1 face".
 std::string counted(std::uint64_t count, std::string_view noun);

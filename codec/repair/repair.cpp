@@ -8,9 +8,8 @@
 #include "codec/repair/edge_groups.h"
 #include "codec/repair/edge_pairs.h"
 #include "codec/repair/face_texturing.h"
-#include "codec/repair/fan_splitter.h"
 #include "codec/repair/keep_vertices.h"
-#include "codec/repair/orientation.h"
+#include "codec/repair/manifold.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/repair/seams.h"
+#include "codec/repair/raw_mesh.h"
 
 #include <algorithm>
 #include <array>

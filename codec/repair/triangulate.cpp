@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/repair/ear_clipping.h"
 #include "codec/repair/raw_mesh.h"
+#include "codec/repair/triangulate.h"
 
 namespace vitrine::inline codec {
 namespace {

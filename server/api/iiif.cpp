@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves IIIF manifests of models (Presentation 3.0 and 4.0), and a collection that lists all
-// models. In a manifest of version 3, a canvas shows the model's poster, which every IIIF viewer
-// can display, and the model itself is a `rendering`. In a manifest of version 4, a scene shows the
-// model.
+// Serves IIIF manifests of models (Presentation 3.0 and 4.0 [IIIF]), and a collection that lists
+// all models. In a manifest of version 3, a canvas shows the model's poster, which every IIIF
+// viewer can display, and the model itself is a `rendering`. In a manifest of version 4, a scene
+// shows the model.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -56,7 +56,7 @@ tl::expected<PageOf<Id>, std::vector<ParameterFault>> read_page(const Query& que
 template <class Id>
 tl::expected<PageOf<Id>, Response> read_page(const Request& request);
 
-// Adds a Link field with the URL of the list's next page (RFC 8288). `cursor` is the last ID on
+// Adds a Link field with the URL of the list's next page [RFC8288]. `cursor` is the last ID on
 // this page, or nullopt if no page follows.
 void link_next(const std::optional<std::string>& cursor, const Request& request,
                Response& response);

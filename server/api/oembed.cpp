@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves oEmbed 1.0: returns the HTML frame with which other sites embed a model's page.
+// Serves oEmbed [oEmbed]: returns the HTML frame with which other sites embed a model's page.
 #include <fmt/format.h>
 
 #include <algorithm>

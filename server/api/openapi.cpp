@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generates the OpenAPI 3.1 document of /api/v1 from the routes and their RouteDoc members.
+// Generates the OpenAPI document [OpenAPI] of /api/v1 from the routes and their RouteDoc members.
 #include <fmt/format.h>
 
 #include <map>

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "codec/mesh/vertex_normals.h"
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "codec/render/material_pictures.h"
 #include "codec/render/render.h"
 #include "server/api/decoded_model.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "server/api/forward.h"
 #include "server/api/handlers.h"
 #include "server/api/job_json.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves resumable uploads: tus 1.0.0 (https://tus.io/protocols/resumable-upload) with its
-// extensions creation, creation-defer-length, creation-with-upload, checksum, expiration and
-// termination.
+// Serves resumable uploads: tus 1.0.0 [tus] with its extensions creation, creation-defer-length,
+// creation-with-upload, checksum, expiration and termination.
 #include <fmt/format.h>
 
 #include <algorithm>

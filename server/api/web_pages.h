@@ -25,7 +25,7 @@ std::span<const WebAsset> web_assets();
 
 struct WebPage {
   WebAsset asset;
-  // The entity tags of the file and of its compressed form. The two must differ (RFC 9110, section
+  // The entity tags of the file and of its compressed form. The two must differ ([RFC9110] section
   // 8.8.3.3).
   std::string etag, gzip_etag;
 };

@@ -17,11 +17,9 @@
 #include "server/api/path_parameters.h"
 #include "server/api/routes.h"
 #include "server/api/services.h"
-#include "server/app/check_paths.h"
-#include "server/app/descriptor_limit.h"
-#include "server/app/port_file.h"
+#include "server/app/check_settings.h"
+#include "server/app/host_system.h"
 #include "server/app/poster_queue.h"
-#include "server/app/service_manager.h"
 #include "server/config/command_line.h"
 #include "server/config/host_names.h"
 #include "server/config/live_settings.h"
@@ -55,20 +53,6 @@ constexpr std::chrono::seconds kVisitFlushEvery{10};
 // Webhooks that the settings do not allow are dropped this long after their jobs have ended.
 constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);
 
-Unexpected of_admin(const Error& error) {
-  return fail(error.code, "--admin-listen: " + error.message);
-}
-
-// Checks that the daemon can listen on its addresses. Called before the data folder is created, so
-// that a failed start leaves nothing behind.
-Expected<void> check_addresses(const Settings& settings) {
-  if (settings.roles.serves) {
-    if (auto usable = check_address(settings.listen); !usable) return usable;
-  }
-  const auto usable = check_address(settings.admin_listen);
-  return usable ? Expected<void>{} : of_admin(usable.error());
-}
-
 // The current configuration, and a function that reads its file and environment again.
 struct Configuration {
   CommandLine line;
@@ -80,19 +64,6 @@ std::string url_of(const Endpoint& endpoint, std::uint16_t port, bool encrypted)
   const bool v6 = endpoint.host.find(':') != std::string::npos;
   return fmt::format("{}://{}{}{}:{}", encrypted ? "https" : "http", v6 ? "[" : "", endpoint.host,
                      v6 ? "]" : "", port);
-}
-
-// Opens the certificate and the key. Returns null if the settings do not enable TLS.
-Expected<std::shared_ptr<LiveTls>> open_tls(const Settings& settings) {
-  const TlsFiles files{settings.tls_certificate, settings.tls_key};
-  if (files == TlsFiles{}) return nullptr;
-  if (files.certificate.empty() || files.key.empty()) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("{} is set alone; set {}, too",
-                            files.key.empty() ? "tls-certificate" : "tls-key",
-                            files.key.empty() ? "tls-key" : "tls-certificate"));
-  }
-  return LiveTls::open(files);
 }
 
 // Owns all parts of the daemon. Each member may depend on those declared before it.
@@ -534,11 +505,8 @@ int serve(Configuration configuration) {
   const Settings& settings = configuration.line.settings;
   // Checks the settings first, so that a wrong setting is reported even if another program already
   // uses the port.
-  auto tls = open_tls(settings);
+  auto tls = check_files(settings, scanners_of(settings));
   if (!tls) return report(tls.error());
-  // Checks the scanners' configuration files without accessing a device.
-  if (const auto valid = open_scanners(scanners_of(settings), {}); !valid)
-    return report(valid.error());
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
   if (const auto made = make_data_folder(settings.data); !made) return report(made.error());
   // Locks the folder before open_installation(), which may migrate the catalogue.
@@ -562,11 +530,8 @@ int serve(Configuration configuration) {
 }
 
 int check(const Settings& settings) {
-  if (const auto usable = check_paths(settings); !usable) return report(usable.error());
-  if (const auto tls = open_tls(settings); !tls) return report(tls.error());
-  // Checks the scanners' configuration files without accessing a device.
-  if (const auto scanners = open_scanners(settings.scanners, {}); !scanners)
-    return report(scanners.error());
+  if (const auto valid = check_files(settings, settings.scanners); !valid)
+    return report(valid.error());
   return print("the configuration is valid\n");
 }
 

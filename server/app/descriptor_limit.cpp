@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/app/descriptor_limit.h"
+#include "server/app/host_system.h"
 
 #include <sys/resource.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/app/port_file.h"
+#include "server/app/host_system.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "server/catalogue/sql_harvest.h"
+#include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sql_model.h"
 #include "server/catalogue/sql_search.h"
 

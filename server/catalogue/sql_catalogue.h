@@ -16,4 +16,7 @@ std::unique_ptr<JobCatalogue> make_jobs(std::shared_ptr<sql::Database> database)
 std::unique_ptr<NoteCatalogue> make_notes(std::shared_ptr<sql::Database> database);
 std::unique_ptr<VisitCatalogue> make_visits(std::shared_ptr<sql::Database> database);
 
+// Lists the models by the time of their last change; see Catalogue::harvest(). Throws a Failure.
+Harvest harvest_models(sql::DatabaseConnection& connection, const HarvestQuery& query);
+
 }  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/catalogue/sql_harvest.h"
+#include "server/catalogue/sql_catalogue.h"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes Base64 (RFC 4648, section 4).
+// Decodes Base64 ([RFC4648] section 4).
 #pragma once
 
 #include <optional>

@@ -7,9 +7,8 @@
 #include <array>
 #include <optional>
 
+#include "server/config/help_text.h"
 #include "server/config/options.h"
-#include "server/config/suggest.h"
-#include "server/config/wrapped.h"
 
 namespace vitrine::server {
 namespace {

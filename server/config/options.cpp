@@ -300,7 +300,8 @@ constexpr std::array kOptions{
            .default_value = "",
            .doc = "S3-compatible bucket: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=S. S "
                   "says where URLs name the bucket: path (default with an endpoint) or virtual "
-                  "(in the host name; else the default). Empty: objects are in the data folder.",
+                  "(in the host name; default without an endpoint). Empty: objects are in the data "
+                  "folder.",
            .apply = store_url},
     Option{.key = "store-access-key",
            .type = kText,
@@ -426,7 +427,7 @@ constexpr std::array kOptions{
            .default_value = "536870912",
            .doc = "Memory for responses that clients have not received yet; responses from files "
                   "need none. A response that does not fit beside the others fails with 503. While "
-                  "over half is used, so does any response to an address that is still receiving "
+                  "over half is used, an address that is still receiving a response gets 503 for "
                   "another. A response larger than this memory fails with 507.",
            .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/config/wrapped.h"
+#include "server/config/help_text.h"
 
 namespace vitrine::server {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Percent-encodes texts for URLs and header fields (RFC 3986, section 2.1).
+// Percent-encodes texts for URLs and header fields ([RFC3986] section 2.1).
 #pragma once
 
 #include <string>

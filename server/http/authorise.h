@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Authorises requests: checks a bearer token (RFC 6750) against the role of a route.
+// Authorises requests: checks a bearer token [RFC6750] against the role of a route.
 #pragma once
 
 #include <optional>

@@ -103,7 +103,8 @@ Response not_allowed(std::string allow, std::string_view id) {
 Response not_admitted(AdmissionLimit::Refusal why, std::string_view id) {
   // A running task ends within seconds, so the client may retry soon.
   if (why == AdmissionLimit::Refusal::kFull) return away(id);
-  Response response = problem(429, "this address has enough under way; wait", id);
+  Response response =
+      problem(429, "this address has too many requests in progress; wait for one to end", id);
   response.fields = {{"Retry-After", "5"}};
   return response;
 }

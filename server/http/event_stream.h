@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends server-sent events (text/event-stream) from a source.
+// Sends server-sent events [SSE] from a source.
 #pragma once
 
 #include <chrono>

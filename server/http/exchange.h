@@ -8,7 +8,7 @@
 #include <string>
 
 #include "server/http/connection.h"
-#include "server/log/request_id.h"
+#include "server/http/request_id.h"
 #include "server/messages/client.h"
 #include "server/messages/problem.h"
 #include "server/messages/response.h"

@@ -85,7 +85,7 @@ class Session {
   }
 
   // For a short time, reads and discards what the peer sends. If the connection closed at once, the
-  // peer's kernel might discard our response (RFC 9112, section 9.6).
+  // peer's kernel might discard our response ([RFC9112] section 9.6).
   asio::awaitable<void> linger() {
     connection_->expires_after(kLinger);
     co_await connection_->socket.finish();

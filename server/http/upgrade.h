@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface of a protocol that takes over a connection from HTTP with status 101 (RFC 9110,
+// The interface of a protocol that takes over a connection from HTTP with status 101 ([RFC9110]
 // section 7.8).
 #pragma once
 

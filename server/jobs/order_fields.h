@@ -32,7 +32,7 @@ class Fields {
       : object_(object), prefix_(std::move(prefix)), faults_(faults) {}
 
   void only(std::span<const std::string_view> known);  // reports each member not in `known`
-  void text(const char* name, std::string& value);     // null makes the text empty (RFC 7396)
+  void text(const char* name, std::string& value);     // null makes the text empty [RFC7396]
   // Reads a text that may have several paragraphs. Removes carriage returns.
   void paragraphs(const char* name, std::string& value);
   // Reads an array of lines. Joins them by line feeds to a text of several paragraphs.

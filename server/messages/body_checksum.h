@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verifies the checksum that a client sends with a body (tus 1.0.0, extension checksum).
+// Verifies the checksum that a client sends with a body ([tus], extension checksum).
 #pragma once
 
 #include <openssl/evp.h>

@@ -16,7 +16,7 @@ struct Client {
 };
 
 // Returns the client of a request that arrived from `peer`. If `peer` is not a trusted proxy,
-// returns it unchanged. Otherwise reads X-Forwarded-For or, in its absence, Forwarded (RFC 7239)
+// returns it unchanged. Otherwise reads X-Forwarded-For or, in its absence, Forwarded [RFC7239]
 // from the last item to the first. The client's address is the first address read that is not a
 // trusted proxy. Stops early at a malformed item. X-Forwarded-Proto, or proto= of Forwarded, states
 // whether the client uses HTTPS.

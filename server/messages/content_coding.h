@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses and applies the content coding gzip (RFC 9110, sections 8.4 and 12.5.3; RFC 1952).
+// Chooses and applies the content coding gzip ([RFC9110] sections 8.4 and 12.5.3; [RFC1952]).
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ inline constexpr std::size_t kLeastToCompress = 1024;
 
 // Compresses the body of a response with gzip if the request allows it. Only public JSON from
 // kLeastToCompress to `most` bytes is compressed. The entity tag of a compressed body ends in
-// kGzipTagEnd. The request's conditions and range refer to the compressed form (RFC 9110, section
+// kGzipTagEnd. The request's conditions and range refer to the compressed form ([RFC9110] section
 // 14.2), so apply_conditions() must be called afterwards.
 Response in_accepted_coding(const RequestHeader& request, Response response, std::size_t most);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The source of the events of a text/event-stream response.
+// The source of the events of a text/event-stream response [SSE].
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 
 namespace vitrine::server {
 
-// Returns the fault in a request's framing, or "" if the framing is unambiguous (RFC 9112, sections
+// Returns the fault in a request's framing, or "" if the framing is unambiguous ([RFC9112] sections
 // 3.2 and 6.1 to 6.3, read strictly). Faults are:
 // - Transfer-Encoding together with Content-Length;
 // - Transfer-Encoding that is given twice, is not exactly "chunked", or occurs in HTTP/1.0;

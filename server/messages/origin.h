@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides which web pages may open a stream. The server itself must decide this, because CORS does
-// not apply to WebSockets (RFC 6455, 10.2).
+// not apply to WebSockets ([RFC6455] section 10.2).
 #pragma once
 
 #include <span>

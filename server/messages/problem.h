@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats errors as application/problem+json (RFC 9457).
+// Formats errors as application/problem+json [RFC9457].
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ std::string_view without_parameters(std::string_view media_type) {
   return name;
 }
 
-// Whether the media type is JSON, or a JSON merge patch (RFC 7396), which a PATCH may send.
+// Whether the media type is JSON, or a JSON merge patch [RFC7396], which a PATCH may send.
 bool is_json(std::string_view media_type) {
   const auto name = without_parameters(media_type);
   return beast::iequals(name, "application/json") ||

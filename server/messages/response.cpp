@@ -28,8 +28,8 @@ std::string_view cache_control(Caching caching) {
   return "";
 }
 
-// Returns the value of the Date field (RFC 9110, 5.6.7). Each thread formats it at most once per
-// second.
+// Returns the value of the Date field ([RFC9110] section 5.6.7). Each thread formats it at most
+// once per second.
 std::string_view date_field() {
   thread_local std::time_t made = 0;
   thread_local std::string text;

@@ -20,7 +20,7 @@ enum class Caching {
   kPrivate,     // private, no-store: only for this caller; pages of other origins may not read it
   kRevalidate,  // no-cache: stored, but revalidated before each use
   // The content of this URL never changes. Browsers keep it for a year. Shared caches revalidate it
-  // after two minutes, because the content may be withdrawn (s-maxage of RFC 9111; RFC 5861).
+  // after two minutes, because the content may be withdrawn (s-maxage of [RFC9111]; [RFC5861]).
   kImmutable,
 };
 
@@ -64,7 +64,7 @@ struct HeadOptions {
 };
 
 // Adds the name of a request field to the Vary field of the response. Vary lists the request fields
-// that determine which representation the server sends (RFC 9110, section 12.5.5).
+// that determine which representation the server sends ([RFC9110] section 12.5.5).
 void add_vary(Response& response, std::string_view name);
 
 // Returns the status line and the header fields, up to and including the empty line.

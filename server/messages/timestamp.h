@@ -10,10 +10,10 @@
 
 namespace vitrine::server {
 
-// Formats milliseconds since 1970, UTC, as ISO 8601.
+// Formats milliseconds since 1970, UTC, in the form of [ISO8601].
 std::string timestamp(std::int64_t milliseconds);
 
-// Formats seconds since 1970, UTC, for HTTP header fields (RFC 9110, 5.6.7).
+// Formats seconds since 1970, UTC, for HTTP header fields ([RFC9110] section 5.6.7).
 std::string http_date(std::int64_t seconds);
 
 // Formats seconds since 1970, UTC, such as 2026-11-28T09:30:00Z.

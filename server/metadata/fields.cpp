@@ -25,7 +25,7 @@ bool is_doi(std::string_view text) {
          text.find(' ') == text.npos;
 }
 
-// Whether `text` is a URI: a scheme, a colon and no space (RFC 3986, section 3).
+// Whether `text` is a URI: a scheme, a colon and no space ([RFC3986] section 3).
 bool is_uri(std::string_view text) {
   const std::size_t colon = text.find(':');
   if (colon == text.npos || colon < 2 || colon + 1 == text.size()) return false;

@@ -9,7 +9,7 @@
 namespace vitrine::server {
 
 inline constexpr std::string_view kMoreTexts[] = {
-    // Dublin Core elements (ISO 15836) that have no member of their own in ModelRecord.
+    // Dublin Core elements [DublinCore] that have no member of their own in ModelRecord.
     // `identifier` is the inventory number.
     "contributor", "coverage", "date", "description", "identifier", "language", "publisher",
     "relation", "source", "subject", "type",

@@ -86,7 +86,7 @@ Vec3 direction_of(const PresentedView& view);
 // Receives the name of a wrong field, such as "view.zoom", and a description of its values.
 using WrongField = std::function<void(const std::string& field, const std::string& expected)>;
 
-// Applies a JSON merge patch (RFC 7396) to a presentation. Calls `wrong` for each wrong field, and
+// Applies a JSON merge patch [RFC7396] to a presentation. Calls `wrong` for each wrong field, and
 // leaves its value. Sets `turned_box` only if `is_stored`, because clients cannot set it.
 void read_presentation(const nlohmann::json& patch, Presentation& presentation,
                        const WrongField& wrong, bool is_stored = false);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts requests and bytes, and writes the counts as text for Prometheus (exposition format
-// 0.0.4). Labels are route templates and classes of status codes. The number of labels is fixed at
-// the start, so clients cannot increase it.
+// Counts requests and bytes, and writes the counts as text for Prometheus [Prometheus]. Labels are
+// route templates and classes of status codes. The number of labels is fixed at the start, so
+// clients cannot increase it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/records/dublin_core.h"
+#include "server/records/record_writers.h"
 
 #include "server/metadata/rights.h"
 #include "server/records/record_format.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/records/edm.h"
+#include "server/records/record_writers.h"
 
 #include "server/records/record_format.h"
 #include "server/records/xml.h"

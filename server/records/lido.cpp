@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/records/lido.h"
+#include "server/records/record_writers.h"
 
 #include <fmt/format.h>
 

@@ -33,7 +33,7 @@ std::string with_links(std::string_view html, const ModelRecord& model, std::str
 std::string with_texts(std::string html, const ModelRecord& model, const std::string& dimensions);
 
 // Percent-encodes `text` as a value in a query: all characters except the unreserved ones become
-// %XX (RFC 3986).
+// %XX [RFC3986].
 std::string escape_query(std::string_view text);
 
 }  // namespace vitrine::server

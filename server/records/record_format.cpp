@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "server/records/dublin_core.h"
-#include "server/records/edm.h"
-#include "server/records/lido.h"
+#include "server/records/record_writers.h"
 #include "server/records/xml.h"
 
 namespace vitrine::server {

@@ -10,12 +10,11 @@
 #include <string_view>
 
 #include "codec/files/atomic_file.h"
+#include "server/catalogue/find_faults.h"
 #include "server/catalogue/postgres_catalogue.h"
-#include "server/catalogue/postgres_faults.h"
 #include "server/catalogue/private_file.h"
 #include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sqlite_database.h"
-#include "server/catalogue/sqlite_faults.h"
 #include "server/store/file_lock.h"
 #include "server/store/file_store.h"
 #include "server/store/s3_store.h"

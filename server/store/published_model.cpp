@@ -125,7 +125,7 @@ std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const 
 }
 
 std::size_t PublishedModels::HashOfScope::operator()(const Scope& scope) const noexcept {
-  // Uses the last bytes of the ID, because the first bytes encode a time.
+  // The first bytes of an ID encode the time of its creation; the last eight are random.
   return first_word(std::span(scope.id.bytes()).last<8>()) + (scope.is_whole ? 1 : 0);
 }
 

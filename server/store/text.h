@@ -10,7 +10,7 @@
 
 namespace vitrine::server {
 
-// Whether `text` is well-formed UTF-8 (RFC 3629: no overlong forms, no surrogates) without control
+// Whether `text` is well-formed UTF-8 ([RFC3629]: no overlong forms, no surrogates) without control
 // characters.
 bool is_plain_text(std::string_view text) noexcept;
 

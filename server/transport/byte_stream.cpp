@@ -65,7 +65,7 @@ asio::awaitable<ByteStream::ClientHandshake> ByteStream::encrypt_to(std::string 
   tls_ = std::make_unique<Tls>(socket_, std::move(context));
   SSL* const native = tls_->stream.native_handle();
   asio::ip::make_address(host, ignored);
-  // Sends `host` in the server name extension. Omits an IP address, because RFC 6066, section 3,
+  // Sends `host` in the server name extension. Omits an IP address, because [RFC6066] section 3
   // forbids addresses in this extension.
   if (ignored) SSL_set_tlsext_host_name(native, host.c_str());
   tls_->stream.set_verify_callback(asio::ssl::host_name_verification(host));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One WebSocket (RFC 6455) over a byte stream, as server or as client. Only web_socket.cpp includes
+// One WebSocket [RFC6455] over a byte stream, as server or as client. Only web_socket.cpp includes
 // Beast's WebSocket stream, whose templates are slow to compile.
 #pragma once
 

@@ -348,7 +348,11 @@ TEST_F(CatalogueSuite, ATokenIsFoundByTheStartOfItsHashUntilItIsRevoked) {
   Sha256 hash = digest(7), near = digest(7), far = digest(7);
   near[4] = 0;
   far[3] = 0;
-  const TokenRecord token{id_of(1), Role::kOperator, hash, "Anna's \"laptop\"", 17};
+  const TokenRecord token{.id = id_of(1),
+                          .role = Role::kOperator,
+                          .hash = hash,
+                          .label = "Anna's \"laptop\"",
+                          .created = 17};
   ASSERT_TRUE(catalogue_->add_token(token));
   ASSERT_TRUE(catalogue_->add_token({id_of(2), server::Role::kViewer, near, "", 18}));
   const auto found = backend_->connect()->tokens_like(hash).value();
@@ -472,7 +476,7 @@ TEST_F(CatalogueSuite, TheFilesAreThoseThatModelsAndDraftsNameByModel) {
 }
 
 TEST_F(CatalogueSuite, ATokenIsAddedOnceAndRevokedOnce) {
-  const TokenRecord token{id_of(1), Role::kAdmin, digest(1), "", 0};
+  const TokenRecord token{.id = id_of(1), .role = Role::kAdmin, .hash = digest(1)};
   ASSERT_TRUE(catalogue_->add_token(token));
   EXPECT_EQ(catalogue_->add_token(token).error().code, ErrorCode::kState);
   EXPECT_EQ(catalogue_->add_token({id_of(2), Role::kAdmin, digest(1), "", 0}).error().code,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests find_faults(), which checks a PostgreSQL catalogue for damage.
-#include "server/catalogue/postgres_faults.h"
+#include "server/catalogue/find_faults.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -131,7 +131,7 @@ class Requests:
 
 
 def frame(dice, payload, kind=1, mask=0x80):
-    """Returns a WebSocket frame as a client sends it (RFC 6455, section 5.2)."""
+    """Returns a WebSocket frame as a client sends it ([RFC6455] section 5.2)."""
     length = len(payload)
     sized = bytes([mask | length]) if length < 126 else bytes([mask | 126]) + length.to_bytes(2, "big") if length < 1 << 16 else \
         bytes([mask | 127]) + length.to_bytes(8, "big")

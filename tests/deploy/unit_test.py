@@ -14,7 +14,7 @@ MOST_EXPOSURE = 1.5  # largest allowed exposure; systemd-analyze rates it from 0
 
 
 def service():
-    """Returns the settings of the section [Service]; the last of repeated ones counts."""
+    """Returns the settings of the section `[Service]`; the last of repeated ones counts."""
     unit = configparser.ConfigParser(strict=False, interpolation=None)
     unit.optionxform = str
     unit.read(UNIT)

@@ -97,7 +97,7 @@ test("a withdrawn model's chunk is gone once purged, and comes back once it is p
   assert.deepEqual(now.body, first.body);
 });
 
-/** Returns an HTTP/2 frame (RFC 9113, section 4.1). */
+/** Returns an HTTP/2 frame ([RFC9113] section 4.1). */
 function frame(type, flags, stream, payload = Buffer.alloc(0)) {
   const head = Buffer.alloc(9);
   head.writeUIntBE(payload.length, 0, 3);
@@ -109,7 +109,7 @@ function frame(type, flags, stream, payload = Buffer.alloc(0)) {
 
 const text = (words) => Buffer.concat([Buffer.from([words.length]), Buffer.from(words)]);
 
-/** Returns the header fields of a request, coded by HPACK (RFC 7541) without Huffman codes. */
+/** Returns the header fields of a request, coded by HPACK [RFC7541] without Huffman codes. */
 function fields(method, path, more = {}) {
   const literals = Object.entries(more).map(([name, value]) => Buffer.concat([Buffer.from([0]), text(name), text(value)]));
   return Buffer.concat([Buffer.from([method === "GET" ? 0x82 : 0x83, 0x87, 0x01]), text("localhost"), Buffer.from([0x04]), text(path), ...literals]);

@@ -13,6 +13,7 @@ MAX_FILES, MAX_LONG_FUNCTIONS, LONG_FUNCTION, MANY_MEMBERS = 45, 5, 40, 4
 MAX_README_LINES, MAX_README_COLUMNS = 150, 120
 SOURCES = {".cpp", ".h", ".ts", ".mjs", ".py"}
 PRODUCT = {"codec", "acquisition", "server", "web"}
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
 
 def files_per_folder(root):
@@ -44,7 +45,7 @@ def is_table(line):
 
 def headers_without_opening(root):
     """Returns headers whose second line does not begin a sentence on what the header is or does."""
-    return [str(path) for path in product_files(root, {".h"})
+    return [str(path) for path in cpp_files(root, {".h"})
             if not re.match(r"//[^\n]*\n// [A-Z\"'`\[.][^\n]*\n", lint.text(root, path))]
 
 
@@ -54,20 +55,43 @@ def unused_permissions(root):
 
 def positional_initialisers(root):
     """Returns positional initialisers of structs with more than four members."""
-    large = set()
-    for path in product_files(root, {".h", ".cpp"}):
-        large |= large_structs(lint.text(root, path))
-    if not large:
-        return []
-    name = r"\b(" + "|".join(sorted(large)) + r")\b"
-    single = re.compile(name + r"(?: \w+)?\s*\{\s*(?![.}\s/])(?!\w+ [^,;{}]*;)")
-    listed = re.compile(name + r"(?:, \d+>|>)? \w+(?:\[\w*\])? ?(?:= )?\{\{?\s*\{\s*(?![.}\s/])")
+    codes = {path: re.sub(r"//[^\n]*", "", lint.text(root, path)) for path in cpp_files(root, {".h", ".cpp"})}
+    large = {path: large_structs(code) for path, code in codes.items()}
     found = []
-    for path in product_files(root, {".h", ".cpp"}):
-        code = re.sub(r"//[^\n]*", "", lint.text(root, path))
-        for match in [*single.finditer(code), *listed.finditer(code)]:
+    for path, code in codes.items():
+        for match in initialisers(code, visible_structs(path, codes, large)):
             if not re.search(r"(struct|class|enum|namespace)\s+$", code[:match.start()]):
                 found.append(f"{path}:{code.count(chr(10), 0, match.start()) + 1}: {match[1]}")
+    return found
+
+
+def initialisers(code, structs):
+    """Returns the matches of positional initialisers of these structs, alone or in a list."""
+    if not structs:
+        return []
+    name = r"\b(" + "|".join(sorted(structs)) + r")\b"
+    single = re.compile(name + r"(?: \w+)?\s*\{\s*(?![.}\s/])(?!\w+ [^,;{}]*;)")
+    listed = re.compile(name + r"(?:, \d+>|>)? \w+(?:\[\w*\])? ?(?:= )?\{\{?\s*\{\s*(?![.}\s/])")
+    return [*single.finditer(code), *listed.finditer(code)]
+
+
+def visible_structs(path, codes, large):
+    """Returns the names of large structs that the file defines or includes. Its own structs hide others of the same name."""
+    own = set(re.findall(r"^ *struct (\w+)", codes[path], re.M))
+    included = set().union(*(large[header] for header in includes(path, codes)))
+    return large[path] | (included - own)
+
+
+def includes(path, codes):
+    """Returns the headers that the file includes, directly or not."""
+    found, waiting = set(), [path]
+    while waiting:
+        at = waiting.pop()
+        for name in INCLUDE.findall(codes[at]):
+            for header in (Path(name), Path("tests") / name, at.parent / name, at.parents[min(1, len(at.parents) - 1)] / name):
+                if header in codes and header not in found:
+                    found.add(header)
+                    waiting.append(header)
     return found
 
 
@@ -99,6 +123,11 @@ def readme_lines(root):
 
 def product_files(root, suffixes):
     return [path for path in lint.files(root) if path.suffix in suffixes and path.parts[0] in PRODUCT]
+
+
+def cpp_files(root, suffixes):
+    """Returns the files of the product and of its tests."""
+    return [path for path in lint.files(root) if path.suffix in suffixes and path.parts[0] in PRODUCT | {"tests"}]
 
 
 FIGURES = (("folders of over 45 source files", files_per_folder, 0),

@@ -112,7 +112,7 @@ class Module:
     """A module: its row in ARCHITECTURE.md, and the other modules and the libraries that its sources include."""
 
     def __init__(self, line, cells):
-        self.line, self.name = line, cells[0].strip("` ")
+        self.line, self.name = line, cells[0].split("`")[1]
         self.modules, self.libraries = cells[2].split(), cells[3].split()
         self.used_modules, self.used_libraries = set(), set()
 
@@ -278,6 +278,30 @@ def formats(root):
                         yield path, number, f'"{found[0]}" lists other formats, or in another order, than the tables in {", ".join(map(str, tables))}'
 
 
+REFERENCES = Path("codec/REFERENCES.md")
+REFERENCE_ROW = re.compile(r"(?:\*\*|\| )\[([^\]]+)\]")
+COMMENT = re.compile(r"(?://|/\*\*|^\s*[*#]|\"\"\").*")
+# A name in brackets that looks like a key: "[Hoppe96]", "[RFC9110]". Arguments such as "[SEED]" and "[FILE]" do not.
+KEY = re.compile(r"(?:^|(?<=[\s(]))\[([A-Z](?=[\w-]*[a-z0-9])[\w-]+)\](?![(`])")
+UNMARKED_RFC = re.compile(r"\bRFC ?\d{4}\b(?!\])")
+
+
+def references(root):
+    """Reports keys of sources that the page of references lacks, keys that nothing cites, and RFCs that are cited without a key."""
+    rows = {row[1]: number for number, line in enumerate(text(root, REFERENCES).splitlines(), 1) if (row := REFERENCE_ROW.match(line))}
+    cited = set()
+    for path in files(root):
+        if path in {REFERENCES, Path("CHANGELOG.md")} or path.is_relative_to("tests/lint") or "corpus" in path.parts:
+            continue
+        if path.suffix == ".md" or is_code(root, path):
+            for number, line in enumerate(text(root, path).splitlines(), 1):
+                prose = line if path.suffix == ".md" else " ".join(COMMENT.findall(line))
+                cited |= {key for key in re.findall(r"\[([\w-]+)\]", prose) if key in rows}
+                yield from ((path, number, f"{REFERENCES} has no [{key}]") for key in KEY.findall(prose) if key not in rows)
+                yield from ((path, number, f"{rfc}: write [{rfc.replace(' ', '')}] section N") for rfc in UNMARKED_RFC.findall(prose))
+    yield from ((REFERENCES, number, f"nothing cites [{key}]") for key, number in rows.items() if key not in cited)
+
+
 # How each kind of test says that it is skipped.
 SKIPS = re.compile(r"\bGTEST_SKIP\(|\bskipUnless\(|\bskipIf\(|\bskipTest\(|\bSKIPPED = 77$|\breturn \{ skip:", re.MULTILINE)
 
@@ -293,7 +317,7 @@ def skips(root):
             yield path, content[:found.start()].count("\n") + 1, "a skipped test that VITRINE_NO_SKIPS does not make fail"
 
 
-RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, modules, types, errors, formats, words, skips)}
+RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, modules, types, errors, formats, words, references, skips)}
 
 
 def main():

@@ -10,7 +10,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 SPDX = "// SPDX-License-Identifier: Apache-2.0\n"
-CORE = "| `codec/core` | The core. | | |\n"
+CORE = "| `codec/core` (hot) | The core. | | |\n"
 MESH = "| `codec/mesh` | The mesh. | codec/core | |\n"
 
 
@@ -20,7 +20,8 @@ class Lint(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.root)
         subprocess.run(["git", "init", "-q", self.root], check=True)
         self.write("codec/ARCHITECTURE.md", CORE + MESH)
-        self.write("codec/mesh/a.cpp", SPDX + '#include "codec/core/a.h"\n')
+        self.write("codec/REFERENCES.md", "**[GH97]** Garland, Heckbert.\n| [PLY] | Turk |\n")
+        self.write("codec/mesh/a.cpp", SPDX + '#include "codec/core/a.h"  // [GH97] section 4, [PLY]\n')
 
     def write(self, path, content):
         file = self.root / path
@@ -36,7 +37,7 @@ class Lint(unittest.TestCase):
         self.assertIn(words, result.stdout)
 
     def test_a_clean_tree_passes_every_rule(self):
-        for rule in ("spdx", "length", "unfinished", "headers", "top", "modules", "types", "errors", "formats"):
+        for rule in ("spdx", "length", "unfinished", "headers", "top", "modules", "types", "errors", "formats", "references"):
             result = self.run_rule(rule)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
@@ -84,6 +85,18 @@ class Lint(unittest.TestCase):
         self.assert_fault("formats", "codec/README.md:1:")
         self.write("codec/README.md", "accept: .ply,.obj,.stl,.off\n")
         self.assert_fault("formats", "codec/README.md:1:")
+
+    def test_a_source_without_a_row_and_a_row_without_a_citation_are_named(self):
+        self.write("codec/core/b.h", SPDX + "// Usage: b [SEED]. Merges vertices [Hoppe96].\n")
+        self.assert_fault("references", "codec/core/b.h:2: codec/REFERENCES.md has no [Hoppe96]")
+        self.assertNotIn("SEED", self.run_rule("references").stdout)
+        self.write("codec/core/b.h", SPDX)
+        self.write("codec/mesh/a.cpp", SPDX + 'int a = b[PLY];  // [GH97]\n')
+        self.assert_fault("references", "codec/REFERENCES.md:2: nothing cites [PLY]")
+
+    def test_an_rfc_that_is_cited_without_its_key_is_named(self):
+        self.write("codec/core/b.h", SPDX + "// Dates (RFC 9110, section 5.6.7).\n")
+        self.assert_fault("references", "codec/core/b.h:2: RFC 9110: write [RFC9110] section N")
 
     def test_a_test_that_is_skipped_unnoticed_is_named(self):
         self.write("tests/a_test.py", "SKIPPED = 77\nsys.exit(SKIPPED if not tool else 0)\n")

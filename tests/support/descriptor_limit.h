@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Raises the limit of open files, for tests with many connections.
 #pragma once
 
 #include <sys/resource.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Makes the tasks of a serial executor wait, so that a test can act before they run.
 #pragma once
 
 #include <future>

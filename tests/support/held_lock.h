@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Locks that a test holds, or loses at a chosen check.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Makes lattice meshes and hierarchies of levels from meshes, and counts their parts.
 #pragma once
 
 #include <gtest/gtest.h>

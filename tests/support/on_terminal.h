@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Runs a program at a terminal, which the test types into and reads.
 #pragma once
 
 #include <gtest/gtest.h>

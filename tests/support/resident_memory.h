@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads how much memory a process uses.
 #pragma once
 
 #include <sys/types.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The number of cases that a test tries.
 #pragma once
 
 #include <cstdint>

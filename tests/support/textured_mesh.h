@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "codec/repair/imported_mesh.h"
 #include "support/meshes.h"
 

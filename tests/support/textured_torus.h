@@ -2,7 +2,7 @@
 // A torus with a picture, for tests of textured models.
 #pragma once
 
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "codec/repair/imported_mesh.h"
 #include "support/meshes.h"
 

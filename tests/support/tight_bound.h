@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Expects a level's stated error to be a bound, and close to the true one.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -46,8 +46,8 @@ tl::expected<DetailTarget, Fault> read_view_file(const std::string& path) {
       parse_message(is_json ? fmt::format(R"({{"type":"want","view":{}}})", text) : std::string());
   if (!message)
     return failed(fmt::format(
-        "{} is not a view; give an object with camera (16 numbers), fov, width, height, pixels "
-        "and, optionally, bytes, as PROTOCOL.md describes",
+        "{} is not a view; give a JSON object with camera (16 numbers), fov, width, height, pixels "
+        "and, optionally, bytes; 'vitrine help fetch' describes each",
         path));
   return std::get<WantMessage>(*message).target;
 }
@@ -293,8 +293,8 @@ constexpr FixedText kFetchDetails = concatenate(
     kNoteOnCompanions);
 constexpr Flag kFetchFlags[] = {
     {"-o", kFetchOutput,
-     "file to write (required); - is standard output, and what has arrived is kept in the current "
-     "folder"},
+     "file to write (required); - is standard output, and an interrupted download is kept in the "
+     "current folder"},
     {kOutputFormat, kFetchFormats, kOutputFormatHelp},
     {"--level", "L",
      "level of detail; 0 is the coarsest; the manifest lists the levels "
@@ -304,8 +304,10 @@ constexpr Flag kFetchFlags[] = {
     {"--error", "E", "coarsest level within E of the original, in the model's unit"},
     {"--seconds", "S", "finest mesh that arrives within S seconds"},
     {"--view", "FILE.json",
-     "detail for a camera: an object with camera (16 numbers), fov, width, height, pixels, "
-     "optionally bytes; see server/stream/PROTOCOL.md"},
+     "detail for a camera, a JSON object: camera (16 numbers, by columns: the matrix from the "
+     "camera, which looks along -z with y up, to the model, in its unit), fov (degrees from bottom "
+     "to top), width and height (of the picture, in pixels), pixels (greatest visible error, in "
+     "pixels) and, optionally, bytes (most bytes to fetch)"},
     kTextureFlag,
     kUnitInFileFlag,
     kUpInFileFlag,

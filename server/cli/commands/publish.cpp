@@ -217,7 +217,7 @@ const Command kPublish = {
     .details =
         "IN may be a folder with one model and its pictures. Give --data on the daemon's machine, "
         "or --server and --token anywhere else. If the same model is published already with the "
-        "same texts, prints its ID and publishes nothing.",
+        "same title, creator, rights and licence, prints its ID and publishes nothing.",
     .operands = kPublishOperands,
     .flags = kPublishFlags,
     .examples =

@@ -9,8 +9,7 @@
 
 #include "server/cli/commands/command.h"
 #include "server/cli/support/console.h"
-#include "server/config/suggest.h"
-#include "server/config/wrapped.h"
+#include "server/config/help_text.h"
 
 namespace vitrine::server::cli {
 namespace {

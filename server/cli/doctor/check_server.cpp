@@ -129,7 +129,7 @@ Finding check_caching(Probe& probe, const std::string& chunk) {
 }
 
 Finding check_websocket(Probe& probe, const std::string& stream) {
-  // Uses the example key of RFC 6455, section 1.3, because the RFC also states the correct response
+  // Uses the example key of [RFC6455] section 1.3, because the RFC also states the correct response
   // to it.
   const auto head = probe.upgrade(
       stream, {"Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13",

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "codec/build/open_model.h"
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "codec/render/render.h"
 #include "codec/repair/repair.h"
 #include "server/cli/report/page.h"

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "server/config/suggest.h"
+#include "server/config/help_text.h"
 
 namespace vitrine::server::cli {
 namespace {

@@ -89,8 +89,8 @@ Expected<Product> exported_originals(const Refiner& refiner, std::span<const std
 // among those that an export to `out` can have, or if check_output() refuses a companion.
 Expected<void> write_export(const Arguments& arguments, const std::string& out, Product& product);
 
-// Writes the product to the file named by -o, by write_export(), or to standard output. Fails if
-// standard output would have to hold companions.
+// Writes the product to the file that -o names, together with its companions (write_export()). If
+// -o is "-", writes the product to standard output, and fails if it has companions.
 CommandOutcome write_export_or_stdout(const Arguments& arguments, Product& product);
 
 // Returns the names of the report's companions for a line of text: "" or ", with bust.mtl, ...".

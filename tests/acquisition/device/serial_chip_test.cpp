@@ -20,12 +20,20 @@ TEST(SerialChip, IsKnownByItsNumbers) {
 
 // The expected values are those of the Linux drivers for these chips.
 TEST(SerialChip, IsSetToTheBaudRatesOfTheDialects) {
-  EXPECT_EQ(set_up(SerialChip::kFtdi, 115200, 0)[1], (ControlRequest{0x40, 3, 0x001a, 0}));
-  EXPECT_EQ(set_up(SerialChip::kFtdi, 57600, 0)[1], (ControlRequest{0x40, 3, 0xc034, 0}));
-  EXPECT_EQ(set_up(SerialChip::kCh34x, 115200, 0)[1], (ControlRequest{0x40, 0x9a, 0x1312, 0xcc83}));
-  EXPECT_EQ(set_up(SerialChip::kCh34x, 57600, 0)[1], (ControlRequest{0x40, 0x9a, 0x1312, 0x9883}));
+  EXPECT_EQ(set_up(SerialChip::kFtdi, 115200, 0)[1],
+            (ControlRequest{.type = 0x40, .request = 3, .value = 0x001a, .index = 0}));
+  EXPECT_EQ(set_up(SerialChip::kFtdi, 57600, 0)[1],
+            (ControlRequest{.type = 0x40, .request = 3, .value = 0xc034, .index = 0}));
+  EXPECT_EQ(set_up(SerialChip::kCh34x, 115200, 0)[1],
+            (ControlRequest{.type = 0x40, .request = 0x9a, .value = 0x1312, .index = 0xcc83}));
+  EXPECT_EQ(set_up(SerialChip::kCh34x, 57600, 0)[1],
+            (ControlRequest{.type = 0x40, .request = 0x9a, .value = 0x1312, .index = 0x9883}));
   EXPECT_EQ(set_up(SerialChip::kCdcAcm, 115200, 2)[0],
-            (ControlRequest{0x21, 0x20, 0, 2, {0x00, 0xc2, 0x01, 0x00, 0, 0, 8}}));
+            (ControlRequest{.type = 0x21,
+                            .request = 0x20,
+                            .value = 0,
+                            .index = 2,
+                            .data = {0x00, 0xc2, 0x01, 0x00, 0, 0, 8}}));
 }
 
 TEST(SerialChip, OfFtdiPutsTwoBytesOfStatusAheadOfEachPacket) {

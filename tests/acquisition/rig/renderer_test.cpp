@@ -42,8 +42,7 @@ TEST(Renderer, TurnsDoNotShowButAngleLaserAndSeedDo) {
 TEST(Renderer, ALaserThatCreptMovesTheStripe) {
   Renderer renderer(optics_of(1), &pebble(), ideal());
   const Frame before = renderer.take({at(0, true)});
-  Shot shot{at(0, true)};
-  shot.laser_shift = 0.5;
+  const Shot shot{.setting = at(0, true), .laser_shift = 0.5};
   EXPECT_NE(before, renderer.take(shot));
 }
 

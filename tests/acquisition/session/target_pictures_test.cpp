@@ -10,7 +10,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const CharucoTarget kTarget{9, 14, 8, 6, "DICT_4X4_100"};
+const CharucoTarget kTarget{
+    .squares_x = 9, .squares_y = 14, .square_mm = 8, .marker_mm = 6, .dictionary = "DICT_4X4_100"};
 
 PlaceTarget places(int count) {
   return [count](int number) -> Expected<bool> { return number < count; };

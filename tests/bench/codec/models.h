@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The meshes on which the benchmarks of the codec run.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Measures how long work takes.
 #pragma once
 
 #include <chrono>

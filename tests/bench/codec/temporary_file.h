@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Files with given bytes for programs that are measured, removed after use.
 #pragma once
 
 #include <unistd.h>

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "codec/render/render.h"
 #include "support/product_names.h"
 #include "value_of.h"

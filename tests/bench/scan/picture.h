@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Renders of the meshes that a benchmark compares.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Takes the value of a result, or ends the benchmark with its error.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reduces the figures of repeated runs to their medians.
 #pragma once
 
 #include <algorithm>

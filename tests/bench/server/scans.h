@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The models that the benchmarks of the server publish.
 #pragma once
 
 #include <string>

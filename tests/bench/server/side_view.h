@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Views of a model from its sides, between which a benchmark's viewers turn.
 #pragma once
 
 #include "codec/format/manifest.h"

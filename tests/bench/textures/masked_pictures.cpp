@@ -11,7 +11,7 @@
 #include "codec/core/limits.h"
 #include "codec/core/srgb.h"
 #include "codec/picture/decode_picture.h"
-#include "codec/picture/write_webp.h"
+#include "codec/picture/write_picture.h"
 #include "support/product_names.h"
 
 namespace vitrine::bench {

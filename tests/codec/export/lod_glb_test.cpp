@@ -11,7 +11,7 @@
 #include "codec/export/write_mesh.h"
 #include "codec/import/mesh_builders.h"
 #include "codec/import/read_mesh.h"
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 
 namespace vitrine {
 namespace {

@@ -15,7 +15,7 @@
 #include "codec/import/mesh_builders.h"
 #include "codec/import/read_mesh.h"
 #include "codec/mesh/vertex_normals.h"
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "support/read_export.h"
 
 namespace vitrine {

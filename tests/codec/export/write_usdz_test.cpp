@@ -9,7 +9,7 @@
 #include "codec/export/write_mesh.h"
 #include "codec/import/mesh_builders.h"
 #include "codec/mesh/vertex_normals.h"
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "support/packages/read_zip.h"
 #include "support/read_export.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 
 namespace vitrine {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "codec/picture/decode_picture.h"
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 
 namespace vitrine {
 namespace {

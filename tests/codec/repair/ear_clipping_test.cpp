@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/repair/ear_clipping.h"
+#include "codec/repair/triangulate.h"
 
 #include <gmock/gmock.h>
 

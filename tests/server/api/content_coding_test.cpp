@@ -222,7 +222,7 @@ TEST_F(PackedJson, IsNotSentToClientsThatDoNotTakeIt) {
     EXPECT_EQ(get("Accept-Encoding: " + list + "\r\n").body, plain) << list;
   for (const std::string list : {"*", "identity;q=0, gzip", "br, gzip;q=0.1"})
     EXPECT_EQ(get("Accept-Encoding: " + list + "\r\n").field("content-encoding"), "gzip") << list;
-  // RFC 9110, section 12.1, allows a server to send a response in a form that the client does not
+  // [RFC9110] section 12.1 allows a server to send a response in a form that the client does not
   // accept.
   const auto refuses_all = get("Accept-Encoding: identity;q=0\r\n");
   EXPECT_EQ(refuses_all.status, 200);

@@ -227,9 +227,11 @@ constexpr int kDamaged = 500;  // the status of each request that needs a damage
 // the scan are then answered.
 struct State {
   const char* name;
-  bool is_public_scan;
-  void (*enter)(World& world);
-  int model_status, scan_status;
+  bool is_public_scan = true;
+  void (*enter)(World& world) = [](World&) {};
+  struct {
+    int model, scan;
+  } statuses;
   Phase phase = Phase::kModel;
 };
 
@@ -282,61 +284,80 @@ void cancel_scan(World& world) {
 }
 
 constexpr State kStates[] = {
-    {"not made yet, its scan ordered as public", true, [](World&) {}, 404, 200, Phase::kScanning},
-    {"not made yet, its scan ordered as a draft", false, [](World&) {}, 404, 401, Phase::kScanning},
-    {"not made, its public scan cancelled", true, cancel_scan, 404, 401, Phase::kScanning},
-    {"published", true, [](World&) {}, 200, 200},
-    {"published again", true,
-     [](World& world) {
-       withdraw(world);
-       EXPECT_EQ(world.ask("POST", world.model_path() + "/publish", Role::kOperator).status, 200);
-     },
-     200, 200},
-    {"published, its scan being reprocessed", true, reprocess_later, 200, 200},
-    {"withdrawn, its scan being reprocessed", true,
-     [](World& world) {
-       withdraw(world);
-       reprocess_later(world);
-     },
-     404, 401},
-    {"damaged", true, damage, kDamaged, 401},
-    {"in cm", true,
-     [](World& world) {
-       patch(world, {{"unit", "cm"}});
-     },
-     200, 200},
-    {"capped at its finest level", true,
-     [](World& world) {
-       patch(world, {{"public_max_level", 255}});
-     },
-     200, 200},
-    {"capped", true, cap, 200, 401},
-    {"replaced", true, replace_file, 200, 401},
-    {"capped, replaced", true,
-     [](World& world) {
-       cap(world);
-       replace_file(world);
-     },
-     200, 401},
-    {"withdrawn", true, withdraw, 404, 401},
-    {"capped, its scan reprocessed", true,
-     [](World& world) {
-       cap(world);
-       reprocess(world, {{"bits", 14}});
-     },
-     200, 401},
-    {"withdrawn, its scan reprocessed", true,
-     [](World& world) {
-       withdraw(world);
-       reprocess(world, {{"bits", 14}});
-     },
-     404, 401},
-    {"a draft", false, [](World&) {}, 404, 401},
-    {"removed", true,
-     [](World& world) {
-       EXPECT_EQ(world.ask("DELETE", world.model_path(), Role::kOperator).status, 204);
-     },
-     404, 401},
+    {.name = "not made yet, its scan ordered as public",
+     .statuses = {404, 200},
+     .phase = Phase::kScanning},
+    {.name = "not made yet, its scan ordered as a draft",
+     .is_public_scan = false,
+     .statuses = {404, 401},
+     .phase = Phase::kScanning},
+    {.name = "not made, its public scan cancelled",
+     .enter = cancel_scan,
+     .statuses = {404, 401},
+     .phase = Phase::kScanning},
+    {.name = "published", .statuses = {200, 200}},
+    {.name = "published again",
+     .enter =
+         [](World& world) {
+           withdraw(world);
+           EXPECT_EQ(world.ask("POST", world.model_path() + "/publish", Role::kOperator).status,
+                     200);
+         },
+     .statuses = {200, 200}},
+    {.name = "published, its scan being reprocessed",
+     .enter = reprocess_later,
+     .statuses = {200, 200}},
+    {.name = "withdrawn, its scan being reprocessed",
+     .enter =
+         [](World& world) {
+           withdraw(world);
+           reprocess_later(world);
+         },
+     .statuses = {404, 401}},
+    {.name = "damaged", .enter = damage, .statuses = {kDamaged, 401}},
+    {.name = "in cm",
+     .enter =
+         [](World& world) {
+           patch(world, {{"unit", "cm"}});
+         },
+     .statuses = {200, 200}},
+    {.name = "capped at its finest level",
+     .enter =
+         [](World& world) {
+           patch(world, {{"public_max_level", 255}});
+         },
+     .statuses = {200, 200}},
+    {.name = "capped", .enter = cap, .statuses = {200, 401}},
+    {.name = "replaced", .enter = replace_file, .statuses = {200, 401}},
+    {.name = "capped, replaced",
+     .enter =
+         [](World& world) {
+           cap(world);
+           replace_file(world);
+         },
+     .statuses = {200, 401}},
+    {.name = "withdrawn", .enter = withdraw, .statuses = {404, 401}},
+    {.name = "capped, its scan reprocessed",
+     .enter =
+         [](World& world) {
+           cap(world);
+           reprocess(world, {{"bits", 14}});
+         },
+     .statuses = {200, 401}},
+    {.name = "withdrawn, its scan reprocessed",
+     .enter =
+         [](World& world) {
+           withdraw(world);
+           reprocess(world, {{"bits", 14}});
+         },
+     .statuses = {404, 401}},
+    {.name = "a draft", .is_public_scan = false, .statuses = {404, 401}},
+    {.name = "removed",
+     .enter =
+         [](World& world) {
+           EXPECT_EQ(world.ask("DELETE", world.model_path(), Role::kOperator).status, 204);
+         },
+     .statuses = {404, 401}},
 };
 
 // The access matrix. For each route and column, it holds the lowest HTTP status of all responses.
@@ -393,10 +414,10 @@ class Walk {
     const auto status = [&](const std::string& path) {
       return world_.ask("GET", path, Role::kNone).status;
     };
-    EXPECT_EQ(status(world_.model_path()), state_.model_status);
-    EXPECT_EQ(status(world_.scan_path() + "/points"), state_.scan_status);
+    EXPECT_EQ(status(world_.model_path()), state_.statuses.model);
+    EXPECT_EQ(status(world_.scan_path() + "/points"), state_.statuses.scan);
     const bool hides_all_from_all = std::string_view(state_.name) == "removed";
-    EXPECT_TRUE(came_out_to_admin_ || state_.scan_status == 200 || hides_all_from_all)
+    EXPECT_TRUE(came_out_to_admin_ || state_.statuses.scan == 200 || hides_all_from_all)
         << "the secrets are in no response, so this test proves nothing";
   }
 
@@ -427,12 +448,12 @@ class Walk {
          {"<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<", "\"http://purl.org/dc/elements/1.1/\"",
           "\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\""})
       secrets_.reveal(text);
-    if (state_.scan_status == 200) {
+    if (state_.statuses.scan == 200) {
       for (const char* part : {"/points", "/profile"})
         secrets_.reveal(world_.ask("GET", world_.scan_path() + part, Role::kAdmin).body);
     }
     const Bytes file = world_.visible_file();
-    if (state_.model_status == kDamaged) reveal_the_record();
+    if (state_.statuses.model == kDamaged) reveal_the_record();
     if (file.empty()) return;
     secrets_.reveal(text_of(file));
     test::LocalServer other(public_routes());
@@ -482,8 +503,8 @@ class Walk {
             fmt::format("{} {} {}{}", kRoles[static_cast<std::size_t>(role)], method, path, query);
         check(answer, request, role, may);
         if (reads && role == Role::kNone) read_otherwise(path + query, answer.status);
-        const bool fails =
-            state_.model_status == kDamaged && may && reads && needs_file(route.path, path + query);
+        const bool fails = state_.statuses.model == kDamaged && may && reads &&
+                           needs_file(route.path, path + query);
         EXPECT_EQ(answer.status >= 500 ? answer.status : 0, fails ? kDamaged : 0)
             << request << ": " << answer.body;
         matrix_.record(fmt::format("{} {}", method, route.path), column(role), answer.status);

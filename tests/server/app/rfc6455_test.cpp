@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the real listener against RFC 6455. The tests follow the groups of the Autobahn test suite:
-// 1 framing, 2 pings, 3 reserved bits, 4 opcodes, 5 fragments, 6 UTF-8, 7 closing, 9 limits, 10
-// many frames.
+// Tests the real listener against [RFC6455]. The tests follow the groups of the Autobahn test
+// suite: 1 framing, 2 pings, 3 reserved bits, 4 opcodes, 5 fragments, 6 UTF-8, 7 closing, 9 limits,
+// 10 many frames.
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -160,6 +160,25 @@ TEST(Start, APortInUseIsOneLineWithTheNextStepAndExitCode1) {
               HasSubstr("cannot listen on " + address + ": Address already in use; "));
 }
 
+TEST(Start, AFileThatCannotBeWrittenIsNamedBeforeAPortInUse) {
+  const ServedFolder folder;
+  const Daemon daemon(folder.path());
+  const std::string address = "127.0.0.1:" + std::to_string(daemon.port());
+  const std::string data = (folder.path() / "fresh").string();
+  const std::string file = (folder.path() / "file").string();
+  std::ofstream(file) << "not a folder";
+  for (const std::string flag : {"--port-file", "--admin-port-file", "--access-log"}) {
+    const ProgramResult result =
+        run_vitrined({"--listen", address, "--data", data, flag, file + "/below"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.output, HasSubstr(flag.substr(2) + ": cannot write " + file + "/below"));
+    // The daemon creates its data folder, so files may be in it before it exists.
+    EXPECT_THAT(run_vitrined({"--listen", address, "--data", data, flag, data + "/below"}).output,
+                HasSubstr("cannot listen on " + address));
+  }
+  EXPECT_FALSE(std::filesystem::exists(data));
+}
+
 TEST(Start, APortInUseLeavesNoFreshDataFolderBehind) {
   const ServedFolder folder;
   const Daemon daemon(folder.path());

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <random>
 
+#include "server/catalogue/find_faults.h"
 #include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sqlite.h"
 #include "server/catalogue/sqlite_catalogue.h"
 #include "server/catalogue/sqlite_database.h"
-#include "server/catalogue/sqlite_faults.h"
 #include "support/seeds.h"
 #include "support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/catalogue/sqlite_faults.h"
+#include "server/catalogue/find_faults.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

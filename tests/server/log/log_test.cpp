@@ -7,8 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "server/log/request_id.h"
-
 namespace vitrine::server {
 namespace {
 
@@ -160,10 +158,6 @@ TEST(Log, QuotesAnEmptyValueAndLeavesAPlainOneBare) {
   EXPECT_EQ(logfmt_value("/a/b?c"), "/a/b?c");
   EXPECT_EQ(logfmt_value("a=b"), "\"a=b\"");
   EXPECT_EQ(logfmt_value("\xff"), "\"\\xff\"");
-}
-
-TEST(RequestId, DiffersForEveryRequest) {
-  EXPECT_NE(next_request_id(), next_request_id());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The base of catalogues that fail or wait in single functions.
 #pragma once
 
 #include "server/catalogue/catalogue.h"

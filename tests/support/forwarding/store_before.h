@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The base of object stores that fail or wait in single functions.
 #pragma once
 
 #include "server/store/object_store.h"

@@ -75,7 +75,7 @@ struct WebSocketFrame {
   }
 };
 
-// Returns a client's frame, masked with zeros (RFC 6455, section 5.2). `first` is its first byte:
+// Returns a client's frame, masked with zeros ([RFC6455] section 5.2). `first` is its first byte:
 // FIN, reserved bits and opcode.
 std::string masked_frame(std::uint8_t first, std::string_view payload);
 

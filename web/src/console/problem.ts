@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors in the form in which the daemon reports them (RFC 9457). An error may list faults. Each
+// Errors in the form in which the daemon reports them [RFC9457]. An error may list faults. Each
 // fault names a parameter and describes what is wrong with it.
 export interface ParameterFault {
   parameter: string;

@@ -418,7 +418,8 @@ TEST_F(VitrineCommand, HelpAndVersionGoToStdout) {
 
 TEST_F(VitrineCommand, NoLineOfHelpIsLongerThan100Columns) {
   std::vector<std::vector<std::string>> pages = {{"--help"}};
-  for (const char* command : {"build", "decode", "fetch", "measure", "publish", "scan", "token"})
+  for (const char* command :
+       {"build", "decode", "fetch", "measure", "migrate", "publish", "scan", "token"})
     pages.push_back({command, "--help"});
   for (const auto& page : pages) {
     std::istringstream help(vitrine(page).output);

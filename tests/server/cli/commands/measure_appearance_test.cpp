@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "codec/picture/png_file.h"
+#include "codec/picture/write_picture.h"
 #include "vitrine_command.h"
 
 namespace vitrine::test {

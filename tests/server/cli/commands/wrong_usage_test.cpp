@@ -16,6 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST_F(VitrineCommand, WrongUsageIsExitCode2) {
   const std::vector<std::vector<std::string>> lines = {
@@ -55,6 +56,13 @@ TEST_F(VitrineCommand, HelpOfACommandIsTheSameInBothForms) {
   EXPECT_THAT(help.output, HasSubstr("\nExamples:\n  vitrine build "));
   EXPECT_THAT(vitrine({"help", "bild"}).errors, HasSubstr("did you mean build?"));
   EXPECT_EQ(vitrine({"-V"}).output, vitrine({"--version"}).output);
+}
+
+TEST_F(VitrineCommand, HelpOfFetchNamesEachMemberOfAView) {
+  const std::string help = vitrine({"help", "fetch"}).output;
+  for (const char* member : {"camera (", "fov (", "width and height (", "pixels (", "bytes ("})
+    EXPECT_THAT(help, HasSubstr(member));
+  EXPECT_THAT(help, Not(HasSubstr("PROTOCOL.md"))) << "is not installed with the program";
 }
 
 TEST_F(VitrineCommand, BashCompletesCommandsFlagsAndChoices) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/log/request_id.h"
+#include "server/http/request_id.h"
 
 #include <atomic>
 #include <cstdint>

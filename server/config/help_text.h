@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suggests the known word that a mistyped word was probably meant to be.
+// The texts of help and of errors in command lines: wraps lines, and suggests the word that was
+// meant.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace vitrine::server {
+
+// Breaks `text` at spaces into lines of at most 100 characters. Indents all lines except the first
+// by `indent` spaces. The caller puts the first line at column `indent`. A word that is too long
+// for a line stays whole.
+std::string wrapped(std::string_view text, std::size_t indent);
 
 // Returns the candidate with the smallest edit distance to `word`. If several candidates have this
 // distance, returns the first. One edit inserts, deletes or replaces one character. Returns an
