@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <unordered_set>
 
 #include "server/api/routes.h"
 #include "server/store/change.h"
+#include "support/access_matrix.h"
 #include "support/damage_object.h"
 #include "support/fake_backend.h"
 #include "support/held_executor.h"
@@ -23,39 +23,14 @@ namespace vitrine::server {
 namespace {
 
 using nlohmann::json;
+using test::AccessMatrix;
 using test::HttpAnswer;
+using test::Secrets;
 using Bytes = std::vector<std::uint8_t>;
 
 std::string text_of(const Bytes& bytes) {
   return {bytes.begin(), bytes.end()};
 }
-
-// Content that a visitor must not get. Stores a hash of every substring that is kWindow bytes long.
-class Secrets {
- public:
-  void hide(std::string_view content) {
-    each_window(content, [&](std::size_t window) { windows_.insert(window); });
-  }
-  void reveal(std::string_view content) {
-    each_window(content, [&](std::size_t window) { windows_.erase(window); });
-  }
-  bool are_in(std::string_view text) const {
-    bool found = false;
-    each_window(text, [&](std::size_t window) { found |= windows_.contains(window); });
-    return found;
-  }
-
- private:
-  static constexpr std::size_t kWindow = 16;
-
-  template <class Use>
-  static void each_window(std::string_view text, const Use& use) {
-    for (std::size_t i = 0; i + kWindow <= text.size(); ++i)
-      use(std::hash<std::string_view>{}(text.substr(i, kWindow)));
-  }
-
-  std::unordered_set<std::size_t> windows_;
-};
 
 // Texts to insert for each parameter of a route.
 using Values = std::map<std::string, std::vector<std::string>, std::less<>>;
@@ -360,39 +335,12 @@ constexpr State kStates[] = {
      .statuses = {404, 401}},
 };
 
-// The access matrix. For each route and column, it holds the lowest HTTP status of all responses.
-class Matrix {
- public:
-  void record(const std::string& route, const std::string& column, int status) {
-    if (std::ranges::find(columns_, column) == columns_.end()) columns_.push_back(column);
-    int& best = rows_[route][column];
-    if (best == 0 || status < best) best = status;
-  }
-  void print() const {
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      fmt::print("[{}] {}\n", i + 1, columns_[i]);
-    fmt::print("{:66}", "");
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      fmt::print("{:>5}", fmt::format("[{}]", i + 1));
-    for (const auto& [route, cells] : rows_) {
-      fmt::print("\n{:66}", route);
-      for (const std::string& column : columns_)
-        fmt::print("{:>5}", cells.contains(column) ? fmt::format("{}", cells.at(column)) : "");
-    }
-    fmt::print("\n");
-  }
-
- private:
-  std::vector<std::string> columns_;
-  std::map<std::string, std::map<std::string, int>> rows_;
-};
-
 constexpr const char* kMethods[] = {"GET", "POST", "PATCH", "DELETE", "PUT"};
 constexpr const char* kRoles[] = {"visitor", "viewer", "operator", "admin"};
 
 class Walk {
  public:
-  Walk(const State& state, Matrix& matrix)
+  Walk(const State& state, AccessMatrix& matrix)
       : state_(state), matrix_(matrix), world_(state.is_public_scan, state.phase) {
     hide_everything();
     const Bytes before = world_.whole_file();
@@ -562,7 +510,7 @@ class Walk {
   }
 
   const State& state_;
-  Matrix& matrix_;
+  AccessMatrix& matrix_;
   World world_;
   Secrets secrets_;
   std::vector<std::string> names_;  // SHA-256 of all chunks that the model has or had
@@ -601,7 +549,7 @@ TEST(Visibility, ARebuiltModelIsAsPublicAsTheOneBeforeUnlessTheOrderSaysWhether)
 }
 
 TEST(Visibility, NothingThatAModelHidesComesOutOfAnyRoute) {
-  Matrix matrix;
+  AccessMatrix matrix;
   for (const State& state : kStates) {
     SCOPED_TRACE(state.name);
     Walk(state, matrix).run();
