@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <regex>
 
 #include "support/product_names.h"
 #include "vitrine_command.h"
@@ -59,7 +60,8 @@ TEST_F(VitrineCommand, HelpOfACommandIsTheSameInBothForms) {
 }
 
 TEST_F(VitrineCommand, HelpOfFetchNamesEachMemberOfAView) {
-  const std::string help = vitrine({"help", "fetch"}).output;
+  const std::string help =
+      std::regex_replace(vitrine({"help", "fetch"}).output, std::regex("\\s+"), " ");
   for (const char* member : {"camera (", "fov (", "width and height (", "pixels (", "bytes ("})
     EXPECT_THAT(help, HasSubstr(member));
   EXPECT_THAT(help, Not(HasSubstr("PROTOCOL.md"))) << "is not installed with the program";
