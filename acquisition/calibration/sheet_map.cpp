@@ -8,7 +8,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr int kGrid = 40;  // points along each side of the grid
+constexpr int kGrid = 40;  // intervals along each side of the grid
 
 std::vector<cv::Point2f> hull_of(std::span<const LaserPoint> stripe, const SheetArea& area) {
   std::vector<cv::Point2f> points, seen, hull;

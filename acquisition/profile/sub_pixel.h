@@ -15,9 +15,10 @@ class SubPixel {
  public:
   explicit SubPixel(const StripeOptions& options);
 
-  // Returns the stripe's centre in pixels. Returns nullopt if the filter finds no peak near `u` or
-  // the image's border is too close. Negative differences of the two rows stay negative, because
-  // clipping them at zero would shift the centre towards the brighter background.
+  // Returns the stripe's centre in pixels, near pixel `u`. Returns nullopt if there is no peak near
+  // `u`, or if the image's border is too close. Uses the difference `lit` - `dark` of each pixel.
+  // Negative differences are not clipped to 0, because that would shift the centre towards the side
+  // with the brighter background.
   std::optional<double> centre(std::span<const std::uint8_t> lit,
                                std::span<const std::uint8_t> dark, int u) const;
 

@@ -328,8 +328,9 @@ class GltfReader {
     std::vector<StatedColour> stated(range.count);
     for (std::uint64_t i = 0; i < range.count; ++i) {
       for (std::uint32_t k = 0; k < 3; ++k) {
+        // NaN counts as a negative number here, because the final colour is 0 for both.
         const double part = colours.real(i, k);
-        stated[i][k] = std::isnan(part) ? -1.F : static_cast<float>(part);  // both become 0
+        stated[i][k] = std::isnan(part) ? -1.F : static_cast<float>(part);
       }
     }
     const bool is_wide = are_up_to_255(stated);

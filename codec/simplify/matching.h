@@ -46,9 +46,9 @@ class CollapseMatcher {
   // their smaller vertex. Returns the collapses in ascending lexicographic order of their targets,
   // without duplicate targets.
   //
-  // After an edge is chosen, some neighbours of its ends cannot collapse in this level. These are
-  // all neighbours with pyramid placement, and neighbours in other regions if `keeps_regions` is
-  // set.
+  // After an edge is chosen, some neighbours of its ends cannot collapse in this level: all
+  // neighbours if the level's placement is kPyramid; otherwise, if `keeps_regions` is set, the
+  // neighbours in other regions.
   const std::vector<Pick>& match(const LevelRules& rules);
 
   // Whether the collapse turns no face over and keeps the surface as close as the rules of the last

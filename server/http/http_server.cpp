@@ -127,7 +127,7 @@ void HttpServer::lasts_while(const Connection& connection, const std::optional<C
   });
 }
 
-// Ends long-lived connections that may no longer continue. The check does not run here, because
+// Ends long-lived connections that may no longer continue. Checks them on a worker thread, because
 // reading the catalogue may block. Only one check runs at a time.
 void HttpServer::end_forbidden() {
   if (!permission_check_.expired()) return;

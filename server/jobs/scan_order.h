@@ -55,7 +55,8 @@ tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const nlohmann::json&
 tl::expected<CalibrationOrder, FieldFaults> parse_calibration_order(const nlohmann::json& body);
 std::string to_json_text(const CalibrationOrder& order);
 
-// Writes an order to scan or to rebuild for the job's record. parse_kept_order() reads that text.
+// Returns the JSON text of an order for a scan or a rebuild, which the job's record stores.
+// parse_kept_order() reads the parsed text.
 std::string to_json_text(const ScanOrder& order);
 tl::expected<ScanOrder, FieldFaults> parse_kept_order(const nlohmann::json& kept);
 

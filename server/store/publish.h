@@ -28,7 +28,7 @@ struct PublishAs {
   // ID of the new model; nullopt: publish() generates one. If a model with this ID exists,
   // publish() returns that model, so that an interrupted caller can retry with the same ID.
   std::optional<ModelId> id = std::nullopt;
-  Quota* quota = nullptr;  // limits the files' size; null: no limit
+  Quota* quota = nullptr;  // limits all models and uploads together; null: no limit
   // The upload from which the files were made. It does not count towards the quota, because it is
   // removed afterwards.
   std::optional<UploadId> upload = std::nullopt;

@@ -80,7 +80,7 @@ export class Gateway extends Backend {
   }
 }
 
-/** Returns the settings, as text of a configuration file, of daemons that share the back ends and the uploads in `folder`. */
+/** Returns the text of a configuration file for daemons that share the back ends, and the uploads in `folder`. */
 export function sharedSettings(folder, postgres, gateway) {
   const { access, secret } = Gateway.keys;
   return `data = ${folder}/command

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds out whether a response contains content that visitors must not get.
 import { createHash } from "node:crypto";
 
-// Length of a window, in bytes. Two models can have 16 equal bytes in their PLY files (a triangle and a part of the next
-// one), so a window must be longer.
+// Secret content is stored as windows: successive pieces of this many bytes. The PLY files of two models can share 16 bytes
+// (a triangle and a part of the next one), so a window must be longer.
 const kWindow = 32;
 
 /**

@@ -43,8 +43,8 @@ class CopyingStore final : public test::StoreBefore {
   const std::filesystem::path copy_;
 };
 
-// A store whose objects consist of kPieces pieces, each of which may take a second at the default
-// rate.
+// A store whose objects consist of kPieces pieces. Each piece has as many bytes as the scrubber
+// reads in a second at its default rate.
 class StoreInPieces final : public test::StoreBefore {
  public:
   static constexpr std::size_t kPieces = 5;
