@@ -81,6 +81,9 @@ class Requests:
         "ScanOrder": {"scanner": "rig", "steps": 12, "metadata": {"title": "Scan"}},
         "CalibrationOrder": {"poses": 12}, "Jog": {"degrees": 30}, "LaserSwitch": {"on": True}, "Nothing": {},
         "ReprocessOrder": {"publish": True},
+        "Notes": {"notes": [{"id": "a", "position": [1, 2, 3], "texts": {"en": {"title": "A", "text": "[b](https://c.example)"}},
+                             "picture": "/x.png", "view": {"direction": [0, 0, 1], "zoom": 2}, "light": "raking,315", "section": "y,50"}]},
+        "Tours": {"tours": [{"id": "t", "titles": {"en": "T"}, "steps": [{"note": "a", "seconds": 5}]}]},
     }
     VALUES = {"q": "ring", "limit": "5", "cursor": "eA", "drafts": "true", "triangles": "500", "error": "0.5", "bytes": "9000",
               "level": "1", "kbps": "800", "seconds": "2", "saveData": "on", "texture": "512", "width": "240", "from": "0", "maxwidth": "300",
