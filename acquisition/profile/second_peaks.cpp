@@ -22,8 +22,8 @@ bool are_two_surfaces(const RowPeaks& row) {
   return row.count == 2 && row.valley <= kMostLit * row.peaks[1].strength;
 }
 
-// Returns the length of the line that ends at `peak`. This line continues the line of the nearest
-// peak in the row before.
+// Returns the length of the line that ends at `peak`. This line comes from the adjacent row
+// `before`, where it continues the line of the nearest peak.
 int length_at(const Peak& peak, const RowPeaks& before, const Lengths& lengths) {
   int nearest = kMostSlant + 1, length = 1;
   for (std::size_t k = 0; k < static_cast<std::size_t>(before.count); ++k) {

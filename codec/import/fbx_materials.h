@@ -20,8 +20,8 @@ namespace vitrine::inline codec {
 Companions with_embedded_pictures(const aiScene& scene, const Companions& beside);
 
 // Defines all materials of the scene. Returns their names in the order of the scene's materials.
-// The name of the grey material that Assimp gives to meshes without a material is empty. Adds the
-// kinds of maps that are not kept to `unread`.
+// Returns an empty name for the grey material that Assimp assigns to meshes without a material, and
+// does not define it. Adds the kinds of maps that are not kept to `unread`.
 std::vector<std::string> define_fbx_materials(const aiScene& scene, ObjMaterials& materials,
                                               std::set<std::string>& unread);
 

@@ -32,7 +32,8 @@ bool is_light_blue(const Picture& picture) {
 
 NamedPictures::Source NamedPictures::source_of(const StatedPath& path) const {
   auto found = find_companion(companions_, path);
-  // Some programs write a comment after the name, although a name may contain this sign.
+  // Some programs write a comment after the name. A name itself may contain " #", so the text after
+  // it is removed only if the whole text names no picture.
   if (const std::size_t comment = path.path.find(" #"); !found && comment != path.path.npos)
     found = find_companion(companions_,
                            {without_end_blanks(path.path.substr(0, comment)), path.folder});

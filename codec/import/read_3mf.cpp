@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the model part of a 3MF package [3MF]: the objects that the build items place, with their
-// triangles, components and colours. The other parts of the package are companions of the part.
+// triangles, components and colours. The other parts of the package are its companions.
 #include <algorithm>
 #include <array>
 #include <map>

@@ -99,7 +99,7 @@ class BinaryValues {
   ByteReader bytes_;
 };
 
-constexpr std::uint64_t kMostNamed = 4;  // of the properties that are not read
+constexpr std::uint64_t kMostNamed = 4;  // largest number of unread properties that a message names
 
 enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kPacked, kAlpha, kNowhere };
 

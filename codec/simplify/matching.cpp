@@ -58,7 +58,7 @@ const std::vector<Pick>& CollapseMatcher::match(const LevelRules& rules) {
   const std::size_t enough = std::min<std::size_t>(rules.most, surface_.live.size() / 5);
   if (picks_.size() < enough) {
     // On a rough surface, few edges pass the check. All edges are therefore tried again with the
-    // larger limit kReach.
+    // limit kReach, which is larger than the limit of regular levels.
     reach_ = mean_edge_ * kReach;
     choose(rules, edges_, enough);
   }

@@ -32,8 +32,9 @@ struct RouteDoc {
 };
 
 // A route of the API. `doc` documents it in the OpenAPI document. The other members mean the same
-// as in Route. If `opens` is null, a route on a worker or for computations opens the model, or the
-// model of the scan, job or chunk, that its path names.
+// as in Route. If `opens` is null and the executor is kWorker or kCompute, bind() derives
+// Route::opens from the path: it opens the model that the path names, or the model of the scan, job
+// or chunk that the path names.
 struct ApiRoute {
   Method method = Method::kGet;
   std::string_view path;

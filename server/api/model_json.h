@@ -26,6 +26,7 @@ struct ModelView {
   std::string public_url = {};
 };
 
+// Formats the record of a model.
 std::string model_json(const ModelRecord& record, const ModelView& view);
 // Like the function above, with the additional members `citation` and `dimensions`: width (x),
 // height (y, upwards) and depth (z) of the presented mesh in the model's unit, or null if the unit

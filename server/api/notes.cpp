@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves and changes the notes on a model's surface and the tours through them. Whoever may see a
-// model may see its notes. Also serves the notes as IIIF annotations, to which the model's IIIF
-// manifests refer.
+// Serves and changes the notes on a model's surface and the tours through them. A caller who may
+// see a model may also see its notes. Also serves the notes as IIIF annotations, to which the
+// model's IIIF manifests refer.
 #include "server/metadata/notes.h"
 
 #include <nlohmann/json.hpp>
@@ -58,7 +58,7 @@ Response notes_have_changed(const Request& request) {
   return problem(412, "the notes or tours have changed since; read them again", request.id);
 }
 
-// Whether the request states a document by If-Match that is not the present one.
+// Whether the request has an If-Match field that does not match the current document.
 bool is_stale(const std::string& present, const Request& request) {
   const auto wanted = request.header.find(beast::http::field::if_match);
   if (wanted == request.header.end()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves the records of models: their metadata in the formats that other catalogues take over.
+// Serves the records of models: their metadata in the formats that other catalogues import.
 #include "server/records/record_format.h"
 
 #include "server/api/published.h"

@@ -60,10 +60,11 @@ struct Services {
   // Limits on the number of requests that are being forwarded. Each forwarded request keeps a
   // worker thread waiting until the other daemon responds. There are separate limits for requests
   // without a token, requests with a token, and emergency stops. One address may use at most half
-  // of the limit for requests without a token. The worker pool has so many extra threads
-  // (WorkerOptions) that a quarter of the pool, the share of one token, is larger than the limit.
-  // So no request, nor the watchdog, ever waits for another daemon, except the forwarded requests.
-  // The threads for emergency stops include two that none of them keeps waiting.
+  // of the limit for requests without a token. The worker pool has extra threads
+  // (WorkerOptions::waiting_threads), so that a quarter of the pool, the share of one token, is
+  // larger than the limit. Therefore only forwarded requests wait for another daemon; other
+  // requests and the watchdog do not. The number of threads for emergency stops exceeds the limit
+  // by two, so that forwarded stops cannot occupy all of them.
   static constexpr std::size_t kMostForwarded = 8;  // limit for each of the three kinds of requests
   static constexpr unsigned kWaitingThreads = 4 * kMostForwarded;
   static constexpr unsigned kUrgentThreads = kMostForwarded + 2;

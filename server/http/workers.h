@@ -22,7 +22,7 @@ struct WorkerOptions {
   unsigned threads = 1;
   unsigned waiting_threads = 0;  // additional threads for handlers that wait for other daemons
   unsigned urgent_threads = 1;   // number of threads for Executor::kUrgent
-  // Largest number of computations that run or wait. One that runs may hold a decoded mesh.
+  // Largest number of computations that run or wait. A running computation may hold a decoded mesh.
   std::size_t max_computations = 64;
 };
 

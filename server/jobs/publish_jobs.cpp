@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr double kChildDone = 0.98;  // the job's progress once the child has finished
+constexpr double kChildDone = 0.98;  // the job's progress once the child process has ended
 
 Expected<ModelOrder> order_of(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);

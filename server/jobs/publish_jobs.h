@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs that publish uploads. A job builds a model from a mesh, or verifies a .pmesh file, in the
-// sandboxed child (build_child.h), and publishes the result.
+// sandboxed child process (build_child.h), and publishes the result.
 #pragma once
 
 #include "server/jobs/job_queue.h"

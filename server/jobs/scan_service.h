@@ -86,8 +86,8 @@ class ScanService {
   // Starts a job that makes another model from a scan. The scan must have measured steps, and no
   // other job may use it. If the order needs the scan's pictures, they must have been kept. If
   // visitors may see only some levels of the scan's current model, the new model becomes a draft,
-  // because its levels differ. `owner` is the token that takes turns with other tokens, if known.
-  // Does not change the scan's state.
+  // because its levels differ. `owner` is the token of the client that has ordered the job, if
+  // known; the jobs of different tokens take turns. Does not change the scan's state.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<IdempotencyKey>& key,
                                   const std::optional<TokenId>& owner = {});

@@ -23,7 +23,8 @@ struct WebhookMessage {
   std::string url;
   std::string id;    // ID of the message; all attempts to send it, by any daemon, use the same ID
   std::string json;  // body of the message
-  // Called right before each post. Returns false if another daemon has already posted the message.
+  // Called right before the first attempt to send the message. If it returns false, because another
+  // daemon has sent or claimed the message, the message is not sent.
   std::function<bool()> may;
   // Called when the server has accepted the message or the object has given up. Not called after
   // Webhooks::stop().

@@ -37,8 +37,9 @@ Expected<Bytes> read_file(const ObjectStore& store, const ModelRecord& record) {
   return (*model)->read((*model)->whole());
 }
 
-// Sets the box of the turned vertices, if the box of the file does not determine it. Models of more
-// than kMostMeasured triangles are measured at a coarser level of detail, which differs little.
+// Sets Presentation::turned_box, the bounding box of the rotated vertices, unless the bounding box
+// of the file determines it. If the model has more than kMostMeasured triangles, measures it at a
+// coarser level of detail, whose box is nearly the same.
 Expected<void> measure_turned(Presentation& presentation, std::span<const std::uint8_t> pmesh) {
   constexpr std::uint64_t kMostMeasured = 1'000'000;
   const PresentationTransform placement(presentation);

@@ -11,8 +11,8 @@ ModelRecord public_view(ModelRecord record);
 
 // Replaces the file of the model `as.id` by `pmesh`, and its repairs by `as.repairs`. Also replaces
 // the texts that `metadata` contains. The model's other texts, its public level and its
-// presentation stay. Publishes
-// a draft if `as.state` is kPublished. Fails with kState if the model does not exist.
+// presentation stay. Publishes a draft if `as.state` is kPublished. Fails with kState if the model
+// does not exist.
 Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as);

@@ -24,19 +24,19 @@ std::uint64_t free_space(const std::filesystem::path& folder);
 // Checks that the disk of `folder` has room for `bytes` more. Fails with kLimit.
 Expected<void> check_free(const std::filesystem::path& folder, std::uint64_t bytes);
 
-// Checks that the disk of the data folder keeps `reserve` bytes free after `bytes` more were
+// Checks that the disk of the data folder still has `reserve` bytes free after `bytes` more are
 // stored. Succeeds if objects are stored in a bucket. Fails with kLimit.
 Expected<void> check_reserve(const InstallationPlace& place, std::uint64_t bytes,
                              std::uint64_t reserve);
 
-// Checks that the disk keeps `reserve` bytes free after these files were stored, each of which
-// occurs once. Bytes that the installation has already need no room. Succeeds if objects are stored
-// in a bucket. Fails with kLimit, and with kIo if the store fails.
+// Checks that the disk still has `reserve` bytes free after `files` are stored. `files` must list
+// each file once. Files that the installation already has need no room. Succeeds if objects are
+// stored in a bucket. Fails with kLimit, and with kIo if the store fails.
 Expected<void> check_reserve(const Installation& installation, std::span<const NamedFile> files,
                              std::uint64_t reserve);
 
-// Checks that quota and disk have room for these files of another installation, each of which
-// occurs once. Fails as check_reserve() does, and with kIo if the catalogue fails.
+// Checks that quota and disk have room for `files` of another installation. `files` must list each
+// file once. Fails as check_reserve() does, and with kIo if the catalogue fails.
 Expected<void> check_limits(const Installation& installation, std::span<const NamedFile> files,
                             const StorageLimits& limits);
 

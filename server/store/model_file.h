@@ -15,8 +15,8 @@ namespace vitrine::server {
 struct HeaderChange {
   // Removes the levels finer than this one. If the number of removed levels would be odd, removes
   // this level, too, unless it is the base mesh. If any level is removed, also removes the pictures
-  // outside the file's head, because they show more detail than the remaining levels have. Nullopt
-  // keeps all levels and pictures.
+  // outside the file's head, because they show more detail than the remaining levels have. Removes
+  // the optional blocks in any case. Nullopt keeps all levels, pictures and optional blocks.
   std::optional<std::uint32_t> last_level;
   std::optional<std::string> unit;
 };

@@ -43,10 +43,11 @@ struct Publication {
 
 // Publishes a .pmesh file. Stores the file, reads it back, and checks the header and the SHA-256 of
 // the base and of every chunk. Then adds the model to the catalogue in one transaction. A failure
-// leaves nothing in the store; a crash leaves at most an unreferenced object. If the same bytes are
-// already published with the same texts, returns that model, repairs its file if it is lost or
-// damaged, and stores `as.repairs` if they are not empty. Fails with kBadInput if the file is
-// damaged, and with kLimit if the disk is full or the quota is exhausted.
+// leaves nothing in the store. Only after a crash, or if the catalogue or the store fails (kIo), an
+// unreferenced object may be left. If the same bytes are already published with the same texts,
+// returns that model, repairs its file if it is lost or damaged, and stores `as.repairs` if they
+// are not empty. Fails with kBadInput if the file is damaged, and with kLimit if the disk is full
+// or the quota is exhausted.
 Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as = {});

@@ -325,9 +325,9 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open_file(ModelRecord r
   return model;
 }
 
-// Adds the file to `copying_`. Drops models until the disk has room for the copy. If all of them
-// would free too little, keeps them and fails. Models that are being sent free their room later.
-// Copies in progress count whole, because it is not known how much of them is on the disk already.
+// Adds the file to `copying_`. Drops models until the disk has room for the copy; if all models
+// together would free too little, keeps them and fails. A model being sent frees its room later.
+// Copies in progress count in full, because it is unknown how much of them is on the disk.
 Expected<void> PublishedModels::reserve_copy(const ModelRecord& record) {
   const std::unique_lock lock(mutex_);
   std::uint64_t droppable = 0;

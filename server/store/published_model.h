@@ -56,7 +56,8 @@ class PublishedModel {
     return file_->read(range.offset, range.length);
   }
 
-  // How often this process has found the file damaged before it was repaired.
+  // How often this process had found the file or a local copy of it damaged before it opened this
+  // model.
   std::uint64_t damages() const { return damages_; }
 
   // Returns the manifest as JSON for the API, or null if PublishedModels::keep_manifest() has not
@@ -77,7 +78,7 @@ class PublishedModel {
 };
 
 // Changes whenever PublishedModels::find() may return another model or error than before: the
-// catalogue's revision, and how often an intact file was found damaged.
+// catalogue's revision, and how often an intact file or a local copy was found damaged.
 struct ModelsRevision {
   std::uint64_t catalogue = 0, damages = 0;
   bool operator==(const ModelsRevision&) const = default;
@@ -89,12 +90,12 @@ struct PublishedChunk {
 };
 
 // A cache of the models of an installation. The first request for a model opens the model;
-// concurrent requests wait for it. If the catalogue or the store cannot be read, requests within
-// `staleness` after it fail, too, without another attempt. Keeps manifests and their JSON in at
-// most `max_bytes` of memory, and drops the least recently used models first. Thread-safe. Finds a
-// model as soon as another process has published it. Notices changes by other processes to cached
-// models within `staleness`. While the catalogue is unreachable, serves cached models for up to 15
-// minutes.
+// concurrent requests wait for it. If the catalogue or the store cannot be read, the request fails,
+// and so do further requests for the model during the next `staleness`, without another attempt.
+// Keeps manifests and their JSON in at most `max_bytes` of memory, and drops the least recently
+// used models first. Thread-safe. Finds a model as soon as another process has published it.
+// Notices changes by other processes to cached models within `staleness`. While the catalogue is
+// unreachable, serves cached models for up to 15 minutes.
 class PublishedModels {
  public:
   PublishedModels(const ObjectStore& store, Catalogue& catalogue,
@@ -251,7 +252,8 @@ class PublishedModels {
   // While the revision stays the same, requests do not read the file again.
   std::map<Sha256, std::uint64_t> damaged_;
   std::set<Sha256> too_large_;  // files of models that need more than max_bytes_
-  // For each file: how often it was found damaged after it had been intact. damages_ is the sum.
+  // For each file: how often the intact file or a local copy of it was found damaged. damages_ is
+  // the sum.
   std::map<Sha256, std::uint64_t> damages_of_;
   std::uint64_t damages_ = 0;
 };

@@ -51,8 +51,8 @@ class Quota {
   Quota(Catalogue& catalogue, const Uploads& uploads, std::uint64_t bytes)
       : catalogue_(catalogue), uploads_(uploads), bytes_(bytes) {}
 
-  // Calls `take`, which creates an upload of `bytes` bytes, if there is enough space beside the
-  // models' files and the other uploads. Admits one caller at a time.
+  // Checks that an upload of `bytes` bytes fits into the quota, together with the models' files and
+  // the other uploads. If it fits, calls `take`, which creates it. Admits one caller at a time.
   Expected<void> admit(std::uint64_t bytes, const std::function<void()>& take);
 
   // Reserves space for the files of a new model. Files that another model already has need no

@@ -48,9 +48,9 @@ class S3Client {
 
   const S3Address& address() const { return address_; }
 
-  // Sends a request, with retries, and returns the last response. Fails with kIo if no attempt got
-  // a response. For a short time after that, failed requests are not retried, because visitors must
-  // not wait for an unreachable store.
+  // Sends a request, with retries, and returns the last response. Fails with kIo if the last
+  // attempt got no response. For a short time after that, failed requests are not retried, because
+  // visitors must not wait for an unreachable store.
   Expected<RemoteAnswer> ask(const S3Request& request);
 
   // Returns a kIo error that states the refused action, the cause and the next step.

@@ -209,7 +209,7 @@ function queries(path, model) {
   return path.endsWith("/oembed") ? [`?url=http://localhost/models/${model}`] : [""];
 }
 
-/** Sends a request. Sends the query of a harvest by POST in the body. */
+/** Sends a request. For a POST request to OAI-PMH, sends the query in the body. */
 function answered(one, method, path, query, role) {
   if (path === "/api/v1/oai" && method === "POST") return ask(one, method, path, role, query.slice(1), kForm);
   return path.endsWith("/events") ? firstEvent(one, path + query, role) : ask(one, method, path + query, role);
@@ -315,10 +315,10 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     for (const { bytes } of [old, now, measured, ...others]) bytes.forEach((part) => secrets.hide(part));
     const open = shown === "all" ? now : shown === "none" ? { bytes: [] } : await pictured(made.model, shown);
     open.bytes.forEach((part) => secrets.reveal(part));
-    // Every export states the model's URL as its source. The URL of a public model made at the same time begins equally, because
-    // an ID begins with ten characters of time.
+    // Every export states the model's URL as its source. The URL of a public model made at the same time begins with the same
+    // characters, because the first ten characters of an ID encode the time.
     secrets.reveal(Buffer.from(`http://127.0.0.1:${replicas[0].port}/models/${made.model.slice(0, 10)}`));
-    secrets.reveal(Buffer.from('<?xml version="1.0" encoding="UTF-8"?>\n<')); // records and files of 3MF begin so
+    secrets.reveal(Buffer.from('<?xml version="1.0" encoding="UTF-8"?>\n<')); // records and 3MF files begin with this text
     if (kOpen.includes(state)) measured.bytes.forEach((part) => secrets.reveal(part));
     assert.ok(kOpen.includes(state) || secrets.size > 100, "nothing is hidden, so this test proves nothing");
     const visit = { state: `${subject} is ${state}`, made, secrets, names: [...new Set([old, now, ...others].flatMap(({ names }) => names))] };

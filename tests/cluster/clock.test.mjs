@@ -21,7 +21,7 @@ import { Replica } from "./replica.mjs";
 const bin = process.env.VITRINE_BIN, run = promisify(execFile);
 const kSkew = 600; // seconds
 const kSide = 150; // vertices per side of the meshes
-const kMostPairs = 10; // most pairs of jobs until both daemons must have claimed one
+const kMostPairs = 10; // after at most this many pairs of jobs, each daemon must have claimed a job
 const kHistory = `
   CREATE TABLE claimed(job BYTEA, holder TEXT);
   CREATE FUNCTION claimed() RETURNS trigger LANGUAGE plpgsql AS 'BEGIN INSERT INTO claimed VALUES (NEW.id, NEW.holder); RETURN NULL; END';

@@ -21,7 +21,7 @@ import { Viewer } from "./viewer.mjs";
 
 const kSides = [220, 200, 180], kBriefSides = [70, 60]; // vertices per side of the meshes
 const kViewers = 3;
-const kAway = 20_000; // time in ms for which first PostgreSQL and then the object store are stopped
+const kAway = 20_000; // time in ms for which each back end is stopped: first PostgreSQL, later the object store
 const kLongestGap = 5_000; // longest time, in ms, without data for a viewer after a serving replica is killed or a back end is stopped
 const kDeadline = 200_000; // time limit of each step, in ms
 const rounds = Number(process.env.VITRINE_ROUNDS ?? 1);

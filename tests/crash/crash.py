@@ -4,7 +4,8 @@
 
 Usage: crash.py BINARIES [KILLS [SEED]]
 
-The operator uploads, builds, publishes, limits, replaces and deletes models, and collects garbage. After each start:
+The operator uploads, builds, publishes, replaces and deletes models, hides their finer levels, and collects garbage. After
+each start:
 - Every model's file is the one that its manifest names, and passes `vitrine verify`.
 - Every upload contains all bytes that were acknowledged.
 - Every job ends, and is done if it has stored its model.

@@ -52,8 +52,8 @@ def ask(daemon, token, call):
 
 
 def settled(daemon, token, call):
-    """Repeats a request while it gets 503, for at most 5 s, and returns its status. Requests share the failure to open a model for a
-    tenth of a second."""
+    """Repeats a request while it gets 503, for at most 5 s, and returns its status. After a failure to open a model, all requests
+    for it fail for a tenth of a second."""
     end = time.monotonic() + 5
     while True:
         status = ask(daemon, token, call)

@@ -24,7 +24,7 @@ from disk import is_served, job_of, upload
 CORPUS = Path(__file__).resolve().parents[1] / "fuzz/corpus/decode_picture"
 EMBEDDED = ("jpeg", "webp_lossy", "webp_lossless", "png")
 PACKAGED = ("tiff", "tiff_cmyk", "bmp", "tga", "tga_runs")
-HEADER = 32  # number of bytes at the start of a picture; at least half of the damages are among them
+HEADER = 32  # number of bytes at the start of a picture; every second damage is among them
 FOREIGN = {"TIFF": b"II*\0\x08\0\0\0" + bytes(64), "big-endian TIFF": b"MM\0*\0\0\0\x08" + bytes(64), "GIF": b"GIF89a" + bytes(64),
            "nothing": bytes(64)}
 

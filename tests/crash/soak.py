@@ -32,7 +32,7 @@ from mutations import mutated
 LIFE = (20, 300)  # shortest and longest time in seconds for which most daemons run
 LONG_LIFE = (1800, 3600)  # the same for every tenth daemon, in a run of RUN hours or more; in a shorter run, the same share of the run
 RUN = 10
-BRIEF = (4, 16, 4)  # number of faults of each daemon in a brief run; the second one is judged
+BRIEF = (4, 16, 4)  # number of faults of each daemon in a brief run; check_growth() checks only the second daemon
 SAMPLES = 16  # number of times at which a daemon with a long life is idle and its memory and descriptors are counted
 BACKLOG = 10  # number of jobs that the operator has open at once
 GROWTH = 4 << 20  # bytes by which the memory of a daemon may grow from the third to the fourth quarter of a long life
@@ -198,7 +198,7 @@ class Soak:
         """
         preloaded = f"LD_PRELOAD={self.disk.library}:{self.clock.library}"
         environment = ["env", *self.disk.environment()[1:], *self.clock.environment[1:], preloaded,  # the last LD_PRELOAD is the one in effect
-                       "MALLOC_ARENA_MAX=1"]  # otherwise, memory also grows whenever another thread is the first to need much
+                       "MALLOC_ARENA_MAX=1"]  # otherwise each thread fills its own arena, so memory also grows without a leak
         daemon, samples, grown = Daemon(self.binaries, self.data, OPTIONS, environment), [], ""
         try:
             self.look.at(Client(daemon, self.token), self.known)

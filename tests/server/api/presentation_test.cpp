@@ -37,7 +37,7 @@ const double kHalf = std::sqrt(0.5);
 const json kZUp = {-kHalf, 0, 0, kHalf};
 const json kOblique = {0.1, 0.2, 0.3, std::sqrt(1 - 0.14)};
 
-// Returns a torus of three different side lengths.
+// Returns the model of a torus whose bounding box has three different side lengths.
 std::vector<std::uint8_t> ring(int around) {
   TriangleMesh mesh = test::torus(around, 20);
   for (Vec3& p : mesh.positions)

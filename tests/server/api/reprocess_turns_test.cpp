@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that tokens take turns if they order to reprocess several scans.
+// Tests that the jobs of two tokens take turns if one of them has ordered many reprocessing jobs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -472,13 +472,13 @@ class Walk {
     return answer;
   }
 
-  // Sends a visitor's HEAD request, and a request for a range, of a target to which GET responds
-  // with `status`.
+  // Sends a visitor's HEAD request and a visitor's range request. GET responds to `target` with
+  // `status`, so these requests must get a corresponding status.
   void read_otherwise(const std::string& target, int status) {
     EXPECT_EQ(world_.head(target).status, status) << "HEAD " << target;
     const HttpAnswer part = world_.ask("GET", target, Role::kNone, "", "Range: bytes=1-\r\n");
     check(part, "a range of " + target, Role::kNone, true);
-    const bool is_empty = part.status == 416;  // the pages of this server
+    const bool is_empty = part.status == 416;  // the pages of this server are empty
     EXPECT_EQ(part.status == 206 || is_empty ? 200 : part.status, status)
         << "a range of " << target;
   }

@@ -12,7 +12,7 @@ export interface NoteFile {
 
 type Vector = [number, number, number];
 
-/** How coordinates of the IIIF scene, which are those of the GLB, follow from those of the model's file. */
+/** The transform from the coordinates of the model's file to those of the IIIF scene, which are the coordinates of the GLB. */
 export interface SceneScale {
   presentation: Pick<Presentation, "rotation" | "scale">;
   unit: string;

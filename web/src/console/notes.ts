@@ -90,7 +90,7 @@ export class NotesEditor {
       const isClick = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < kStill;
       if (this.#isPlacing && isClick && event.composedPath()[0] instanceof HTMLCanvasElement) void this.#put(event.clientX, event.clientY);
     }, options);
-    // A new viewer shows the saved notes first.
+    // A new viewer shows the saved notes at first, so the unsaved ones are shown again.
     stage.addEventListener("load", () => void this.#preview(), options);
   }
 
@@ -115,7 +115,7 @@ export class NotesEditor {
     return this.#put(left + width / 2, top + height / 2);
   }
 
-  /** Places a new note, or moves one, to the surface at a point of the window. */
+  /** Places a note on the surface at a point of the window: the note that is being moved, or a new one. */
   async #put(x: number, y: number): Promise<void> {
     const reader = await this.#reader(), place = reader.pick(x, y), words = this.kit.texts.notes;
     if (!place) return void (this.#said.textContent = words.missed);
@@ -163,7 +163,7 @@ export class NotesEditor {
     this.#change({ ...this.#now, notes });
   }
 
-  /** Shows the documents `now`. Fills the forms again if `isOther`, else leaves them to the operator who types. */
+  /** Shows the documents `now`. Fills the forms again only if `isOther` is true: otherwise, the operator is typing in them. */
   #change(now: NoteDocuments, isOther = false): void {
     this.#now = now;
     const isSame = JSON.stringify(now) === JSON.stringify(this.#saved);

@@ -74,7 +74,7 @@ export class PresentationEditor {
     signal.addEventListener("abort", () => [plumb, handle].forEach((part) => part.remove()));
     this.#ruler = new Ruler(h, stage, () => this.#presenter, signal);
     this.#ruler.onChange = () => this.#tell();
-    // The viewer of a new state shows the saved presentation first.
+    // A new viewer shows the saved presentation at first, so the unsaved one is shown again.
     stage.addEventListener("load", () => this.#preview(), { signal, capture: true });
     const units: [string, string][] = [["", texts.model.unknownUnit], ...Object.entries(gallery.units)];
     const unit = field({ name: "unit", label: gallery.facts.unit, options: units });
@@ -159,7 +159,7 @@ export class PresentationEditor {
     else this.#control("known").focus();
   }
 
-  /** `writesScale` is false while the operator types the scale. */
+  /** Shows the values `now`. Leaves the scale's field unchanged if `writesScale` is false, because the operator is typing in it. */
   #change(now: Placed, writesScale = true): void {
     this.#now = now;
     const isSame = JSON.stringify(now) === JSON.stringify(this.#saved);

@@ -77,7 +77,7 @@ export class TourForm {
   }
 }
 
-/** Leaves out an empty time, which stands for the usual one. */
+/** Leaves out an empty time. The tour then shows the note long enough to read it. */
 function without({ seconds, ...rest }: Step): Step {
   return seconds ? { ...rest, seconds } : rest;
 }

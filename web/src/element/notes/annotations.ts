@@ -88,7 +88,7 @@ export function languageIn(entries: Record<string, unknown>, wanted: string): st
     ?? tags.find((tag) => primary(tag) === "en") ?? tags[0];
 }
 
-/** Returns a note of the daemon in the language `wanted`, or in another if it lacks this one. */
+/** Returns a note of the daemon in the language `wanted`. If the note lacks this language, languageIn() chooses another. */
 export function inLanguage({ id, position, normal, texts, picture, view, light, section }: StoredNote, wanted: string): Annotation {
   const language = languageIn(texts, wanted), words = language === undefined ? { title: "" } : (texts[language] as NoteText);
   return {

@@ -111,7 +111,7 @@ export class NoteReader {
     return { position: this.#inModel(at), normal: rounded(normal.applyQuaternion(stage.mesh.quaternion.clone().invert())) };
   }
 
-  /** The view, light and section of the moment. */
+  /** The current view, light and section. */
   get moment(): Required<Pick<StoredNote, "view" | "light" | "section">> {
     const { stage } = this.bench, { camera, controls: { target } } = stage.parts;
     const offset = camera.position.clone().sub(target), distance = offset.length();
@@ -223,7 +223,7 @@ export class NoteReader {
     this.#marks.forEach(({ element }, i) => element.classList.toggle("chosen", i === chosen));
   }
 
-  /** Returns the view of a note as the camera has it, in presented coordinates. */
+  /** Converts the view of a note to a view of the camera, in presented coordinates. */
   #viewOf({ direction, target, zoom = 1 }: NoteView): OrbitView {
     const { stage } = this.bench, { mesh } = stage, at = target ? this.#onStage(target) : new Vector3();
     const toEye = new Vector3(...direction).applyQuaternion(mesh.quaternion).normalize();

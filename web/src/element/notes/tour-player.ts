@@ -97,7 +97,7 @@ export class TourPlayer {
     this.#present();
   }
 
-  /** Shows the present step. If not `isNew`, only the buttons change. */
+  /** Shows the current step. If `isNew` is false, the note is shown already, so only updates the buttons and pauses the sound. */
   #present(isNew = true): void {
     const { make } = this.kit, { tour } = this.bench.texts, { index, note, transition } = this.#steps[this.#at] as TourStep;
     clearTimeout(this.#timer);
