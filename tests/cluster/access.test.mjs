@@ -23,8 +23,10 @@ import { Replica } from "./replica.mjs";
 import { Secrets } from "./secrets.mjs";
 
 const bin = process.env.VITRINE_BIN;
-const kBinary = ["glb", "ply", "stl", "drc"]; // other formats store numbers as text, and the public manifest may contain the same text
-const kFormats = ["glb", "ply", "obj", "stl", "drc", "wrl", "3mf", "usdz", "obj.zip"];
+// Formats whose bytes are compared with secrets. Other formats store numbers as text, and the public manifest may contain the
+// same text. They are requested in the first state only.
+const kBinary = ["glb", "ply", "stl", "drc"];
+const kFormats = [...kBinary, "obj", "wrl", "3mf", "usdz", "obj.zip"];
 const kRoles = ["none", "viewer", "operator", "admin"];
 const kPages = ["/", "/models/{id}", "/collections/{collection}", "/scans/{id}", "/sitemap.xml", "/docs", "/console"];
 const kForm = { "Content-Type": "application/x-www-form-urlencoded" };
@@ -223,7 +225,7 @@ async function walk(one, { method, path, role: least }, role, { state, made, nam
   const may = kRoles.indexOf(role) >= kRoles.indexOf(least), statuses = [];
   if (may && method !== "GET" && path !== "/api/v1/oai") return statuses; // the request would change the model
   const ids = [made.model, made.job, "01arz3ndektsv4rrffq69g5fav", ...(made.scan ? [made.scan] : []), ...(made.others ?? [])];
-  const values = { id: ids, sha256: names, format: kFormats, name: ["rig"], number: ["1"], collection: [encodeURIComponent(kCollection)] };
+  const values = { id: ids, sha256: names, format: states === 1 ? kFormats : kBinary, name: ["rig"], number: ["1"], collection: [encodeURIComponent(kCollection)] };
   for (const expansion of expanded(path, values)) {
     for (const query of queries(expansion, made.model)) {
       const { status, body } = await answered(one, method, expansion, query, role), request = `${state}: ${role} ${method} ${expansion}${query}`;
