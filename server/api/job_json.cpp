@@ -10,7 +10,7 @@
 #include "server/api/published.h"
 #include "server/messages/http_header.h"
 #include "server/messages/timestamp.h"
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 
 namespace vitrine::server {
 namespace {

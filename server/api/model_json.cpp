@@ -10,9 +10,9 @@
 
 #include "server/messages/response.h"
 #include "server/messages/timestamp.h"
+#include "server/metadata/text.h"
 #include "server/records/citation.h"
 #include "server/store/change.h"
-#include "server/store/text.h"
 
 namespace vitrine::server {
 namespace {

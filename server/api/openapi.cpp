@@ -25,7 +25,8 @@ constexpr std::string_view kAbout =
     "strong ETags and support If-None-Match, Range (one range) and If-Range, except those for "
     "scanners, scans and jobs. Requests without a token and with `Accept-Encoding: gzip` get "
     "public JSON from 1 KiB to 4 MiB, OBJ and VRML with gzip; ETag and Range then refer to the "
-    "compressed body. Errors are RFC 9457 problems. Request bodies are JSON of at most 64 KiB.";
+    "compressed body. Errors are RFC 9457 problems. Request bodies are JSON of at most 64 "
+    "KiB; those of notes and tours, of at most 1 MiB.";
 
 std::string_view name_of(Method method) {
   switch (method) {

@@ -32,11 +32,11 @@
 #include "server/jobs/periodic_task.h"
 #include "server/jobs/place_of.h"
 #include "server/jobs/publish_jobs.h"
+#include "server/metadata/text.h"
 #include "server/remote/remote_server.h"
 #include "server/store/daemon_lock.h"
 #include "server/store/installation.h"
 #include "server/store/new_public_files.h"
-#include "server/store/text.h"
 #include "server/transport/live_tls.h"
 
 namespace vitrine::server {

@@ -6,6 +6,7 @@
 #include "server/messages/conditional.h"
 #include "server/messages/content_coding.h"
 #include "server/messages/query.h"
+#include "server/messages/request_body.h"
 
 namespace vitrine::server {
 namespace {
@@ -48,7 +49,8 @@ std::optional<Method> method_of(verb method) {
 verb method_sent(const RequestHeader& header) {
   if (header.method() != verb::post) return header.method();
   const verb real = beast::http::string_to_verb(header["X-HTTP-Method-Override"]);
-  return real == verb::patch || real == verb::delete_ ? real : verb::post;
+  const bool is_taken = real == verb::patch || real == verb::put || real == verb::delete_;
+  return is_taken ? real : verb::post;
 }
 
 // Whether the listener answers requests for the host that the request names (protection from DNS
@@ -212,8 +214,10 @@ asio::awaitable<bool> Dispatcher::answer(RequestParser& parser, Exchange& exchan
     const bool is_authorised = co_await authorise_caller(header, exchange);
     if (!is_authorised || answer_at_once(request, exchange)) co_return true;
   }
-  if (takes_body(route, BodyKind::kJson)) {
-    const ReadResult read = co_await reader_.read_json(parser, exchange);
+  const bool is_large = takes_body(route, BodyKind::kLargeJson);
+  if (is_large || takes_body(route, BodyKind::kJson)) {
+    const std::size_t most = is_large ? kMaxLargeRequestBody : kMaxRequestBody;
+    const ReadResult read = co_await reader_.read_json(parser, exchange, most);
     if (read != ReadResult::kRead) co_return read == ReadResult::kRejected;
   }
   if (takes_body(route, BodyKind::kForm)) {

@@ -57,10 +57,11 @@ asio::awaitable<ReadResult> RequestReader::read_header(RequestParser& parser, Ex
   co_return ReadResult::kRead;
 }
 
-asio::awaitable<ReadResult> RequestReader::read_json(RequestParser& parser, Exchange& exchange) {
-  const ReadResult read = co_await read_text(parser, exchange);
+asio::awaitable<ReadResult> RequestReader::read_json(RequestParser& parser, Exchange& exchange,
+                                                     std::size_t most) {
+  const ReadResult read = co_await read_text(parser, exchange, most);
   if (read != ReadResult::kRead) co_return read;
-  auto body = parse_body(media_type_of(parser.get()), parser.get().body());
+  auto body = parse_body(media_type_of(parser.get()), parser.get().body(), most);
   if (!body) {
     exchange.response = problem(body.error().status, body.error().detail, exchange.id);
     co_return ReadResult::kRejected;
@@ -70,7 +71,7 @@ asio::awaitable<ReadResult> RequestReader::read_json(RequestParser& parser, Exch
 }
 
 asio::awaitable<ReadResult> RequestReader::read_form(RequestParser& parser, Exchange& exchange) {
-  const ReadResult read = co_await read_text(parser, exchange);
+  const ReadResult read = co_await read_text(parser, exchange, kMaxRequestBody);
   if (read != ReadResult::kRead) co_return read;
   if (const auto fault = form_fault(media_type_of(parser.get()), parser.get().body())) {
     exchange.response = problem(fault->status, fault->detail, exchange.id);
@@ -80,14 +81,15 @@ asio::awaitable<ReadResult> RequestReader::read_form(RequestParser& parser, Exch
   co_return ReadResult::kRead;
 }
 
-asio::awaitable<ReadResult> RequestReader::read_text(RequestParser& parser, Exchange& exchange) {
+asio::awaitable<ReadResult> RequestReader::read_text(RequestParser& parser, Exchange& exchange,
+                                                     std::size_t most) {
   if (parser.is_done()) co_return ReadResult::kRead;
   connection_.expires_after(server_.pace().timeout);
-  if (parser.content_length().value_or(0) > kMaxRequestBody) {
+  if (parser.content_length().value_or(0) > most) {
     exchange.reject(413, "the body is too large");
     co_return ReadResult::kRejected;
   }
-  parser.body_limit(kMaxRequestBody);  // limit for a chunked body, which states no length
+  parser.body_limit(most);  // limit for a chunked body, which states no length
   const ReadResult expected = co_await meet_expectation(parser.get(), exchange);
   if (expected != ReadResult::kRead) co_return expected;
   connection_.reads_body = true;

@@ -29,8 +29,9 @@ class RequestReader {
 
   asio::awaitable<ReadResult> read_header(RequestParser& parser, Exchange& exchange);
 
-  // Reads the body as JSON into exchange.body.
-  asio::awaitable<ReadResult> read_json(RequestParser& parser, Exchange& exchange);
+  // Reads the body, which has at most `most` bytes, as JSON into exchange.body.
+  asio::awaitable<ReadResult> read_json(RequestParser& parser, Exchange& exchange,
+                                        std::size_t most);
 
   // Reads the body as a form into exchange.form.
   asio::awaitable<ReadResult> read_form(RequestParser& parser, Exchange& exchange);
@@ -43,7 +44,8 @@ class RequestReader {
   void release_buffer() { buffer_ = beast::flat_buffer(); }
 
  private:
-  asio::awaitable<ReadResult> read_text(RequestParser& parser, Exchange& exchange);
+  asio::awaitable<ReadResult> read_text(RequestParser& parser, Exchange& exchange,
+                                        std::size_t most);
   asio::awaitable<ReadResult> meet_expectation(const RequestHeader& header, Exchange& exchange);
   ReadResult rejected(const boost::system::error_code& error, Exchange& exchange) const;
 

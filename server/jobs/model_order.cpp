@@ -2,7 +2,7 @@
 #include "server/jobs/model_order.h"
 
 #include "codec/mesh/unit.h"
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 
 namespace vitrine::server {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "codec/format/manifest.h"
 #include "server/metadata/fields.h"
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 
 namespace vitrine::server {
 namespace {

@@ -47,9 +47,9 @@ class Watch {
 }  // namespace
 
 tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
-                                                   std::string_view text) {
+                                                   std::string_view text, std::size_t most) {
   if (text.empty()) return nlohmann::json::object();
-  if (text.size() > kMaxRequestBody) return tl::unexpected(BodyFault{413, "the body is too large"});
+  if (text.size() > most) return tl::unexpected(BodyFault{413, "the body is too large"});
   if (!is_json(media_type))
     return tl::unexpected(BodyFault{415, "send the body as application/json"});
   // Checks for NUL bytes, because the library would treat one as the end of the text.

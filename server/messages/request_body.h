@@ -9,9 +9,10 @@
 
 namespace vitrine::server {
 
-inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // largest size of a body, in bytes
-inline constexpr int kMaxBodyDepth = 16;                   // levels of nested arrays and objects
-inline constexpr std::size_t kMaxForm = 8 * 1024;          // largest size of a form, in bytes
+// Largest sizes of a body in bytes: usually, and for routes with BodyKind::kLargeJson.
+inline constexpr std::size_t kMaxRequestBody = 64 * 1024, kMaxLargeRequestBody = 1024 * 1024;
+inline constexpr int kMaxBodyDepth = 16;           // levels of nested arrays and objects
+inline constexpr std::size_t kMaxForm = 8 * 1024;  // largest size of a form, in bytes
 
 struct BodyFault {
   unsigned status;  // HTTP status: 400, 413 or 415
@@ -19,10 +20,11 @@ struct BodyFault {
 };
 
 // Parses `text` as a JSON object. An empty `text` gives an empty object. Fails if the media type is
-// neither application/json nor application/merge-patch+json, if the text is too large or not an
-// object, if it is nested too deep, or if a name occurs twice in an object.
+// neither application/json nor application/merge-patch+json, if the text is larger than `most`
+// bytes or not an object, if it is nested too deep, or if a name occurs twice in an object.
 tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
-                                                   std::string_view text);
+                                                   std::string_view text,
+                                                   std::size_t most = kMaxRequestBody);
 
 // Returns what is wrong with a form `text`, or nullopt: it is too large, or the media type is not
 // application/x-www-form-urlencoded.

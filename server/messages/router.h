@@ -91,9 +91,10 @@ enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kPut, kOptions 
 
 // How the server treats the body of a POST, PATCH or PUT request.
 enum class BodyKind : std::uint8_t {
-  kJson,    // parses it as JSON into Request::body
-  kForm,    // reads it into Request::form, encoded like a query
-  kPieces,  // passes it to Response::sink
+  kJson,       // parses it as JSON into Request::body
+  kForm,       // reads it into Request::form, encoded like a query
+  kPieces,     // passes it to Response::sink
+  kLargeJson,  // like kJson, with a larger limit; only for routes that need a role
 };
 
 struct Route {

@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "server/metadata/fields.h"
+#include "server/metadata/text.h"
 #include "server/store/stored_file.h"
-#include "server/store/text.h"
 
 namespace vitrine::server {
 namespace {

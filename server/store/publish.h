@@ -19,8 +19,8 @@ struct ModelMetadata {
 };
 
 // Checks the texts. Rights, description and provenance may have several paragraphs; every other
-// text must be one short line (server/store/text.h). Each text must be a value that expected_text()
-// allows. Fails with kBadInput.
+// text must be one short line (server/metadata/text.h). Each text must be a value that
+// expected_text() allows. Fails with kBadInput.
 Expected<void> check_texts(const ModelMetadata& metadata);
 
 struct PublishAs {

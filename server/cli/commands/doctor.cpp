@@ -8,7 +8,7 @@
 #include "server/cli/support/access_token.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/place.h"
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 
 namespace vitrine::server::cli {
 namespace {

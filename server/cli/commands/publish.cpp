@@ -18,7 +18,7 @@
 #include "server/cli/support/isolation.h"
 #include "server/cli/support/place.h"
 #include "server/cli/support/reading.h"
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 
 namespace vitrine::server::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 
 namespace vitrine::server::cli {
 

@@ -13,7 +13,7 @@
 #include "codec/format/manifest.h"
 #include "server/api/handlers.h"
 #include "server/api/routes.h"
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 #include "support/local_server.h"
 #include "support/meshes.h"
 #include "support/process/http_client.h"

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 #include "support/product_names.h"
 #include "vitrine_command.h"
 

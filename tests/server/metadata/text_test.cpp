@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/store/text.h"
+#include "server/metadata/text.h"
 
 #include <gtest/gtest.h>
 
