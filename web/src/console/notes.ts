@@ -27,7 +27,13 @@ export interface NotesOptions {
 const kParts = ["notes", "tours"] as const;
 const kStill = 5; // pixels that the pointer may move during a click
 
-const drafts = new Map<string, NoteDocuments>(); // unsaved changes by the model's ID
+/** Unsaved changes, and the entity tags of the stored documents on which they are based. */
+interface Draft {
+  documents: NoteDocuments;
+  tags: Record<NotePart, string>;
+}
+
+const drafts = new Map<string, Draft>(); // by the model's ID
 addEventListener("beforeunload", (event) => drafts.size > 0 && event.preventDefault());
 
 export class NotesEditor {
@@ -40,6 +46,7 @@ export class NotesEditor {
   readonly #discard: HTMLButtonElement;
   readonly #said: HTMLElement;
   readonly #tags: Record<NotePart, string> = { notes: "", tours: "" };
+  #saving: Promise<void> = Promise.resolve();
   #saved: NoteDocuments = { notes: [], tours: [] };
   #now: NoteDocuments = { notes: [], tours: [] };
   #chosen = ""; // ID of the note in the form
@@ -59,7 +66,7 @@ export class NotesEditor {
     });
     this.#tourForm = new TourForm(kit, (tours) => this.#change({ ...this.#now, tours }));
     const file = h("input", { type: "file", accept: ".json,application/json,application/ld+json", hidden: true, onchange: () => void this.#import(file) });
-    this.#discard = h("button", { type: "button", onclick: () => this.#change(this.#saved, true) }, words.discard);
+    this.#discard = h("button", { type: "button", onclick: () => this.#dismiss() }, words.discard);
     this.#form = form([
       h("fieldset", {}, h("legend", {}, words.notes), h("p", { class: "quiet" }, words.hint), h("div", { class: "actions" }, this.#place, middle), this.#said, this.#list, this.#noteForm.element),
       this.#tourForm.element,
@@ -73,13 +80,24 @@ export class NotesEditor {
 
   /** Reads the stored notes and tours. Continues with unsaved changes, if there are any. */
   async open(): Promise<void> {
+    await this.#read();
+    this.#change(drafts.get(this.options.id)?.documents ?? this.#saved, true);
+    const draft = drafts.get(this.options.id); // #change() removes a draft that equals the stored documents
+    if (!draft) return;
+    const isOutdated = kParts.some((part) => draft.tags[part] !== this.#tags[part]);
+    this.#said.textContent = isOutdated ? this.kit.texts.notes.outdated : this.kit.texts.presentation.restored;
+  }
+
+  async #read(): Promise<void> {
     const [notes, tours] = await Promise.all(kParts.map((part) => this.options.read(part)));
     this.#tags.notes = notes?.tag ?? "";
     this.#tags.tours = tours?.tag ?? "";
     this.#saved = { notes: notes?.value.notes ?? [], tours: tours?.value.tours ?? [] };
-    const draft = drafts.get(this.options.id);
-    this.#change(draft ?? this.#saved, true);
-    if (draft) this.#said.textContent = this.kit.texts.presentation.restored;
+  }
+
+  #dismiss(): void {
+    this.#said.textContent = "";
+    this.#change(this.#saved, true);
   }
 
   #listen(): void {
@@ -168,7 +186,7 @@ export class NotesEditor {
     this.#now = now;
     const isSame = JSON.stringify(now) === JSON.stringify(this.#saved);
     if (isSame) drafts.delete(this.options.id);
-    else drafts.set(this.options.id, now);
+    else drafts.set(this.options.id, { documents: now, tags: drafts.get(this.options.id)?.tags ?? { ...this.#tags } });
     this.#discard.disabled = isSame;
     (this.#form.querySelector("[type=submit]") as HTMLButtonElement).disabled = isSame;
     this.#noteForm.note = this.#note;
@@ -196,19 +214,36 @@ export class NotesEditor {
     (await this.#reader().catch(() => undefined))?.preview(this.#now);
   }
 
-  async #save(): Promise<void> {
+  /** Saves after an earlier call has ended, so that both use the newest entity tags. */
+  #save(): Promise<void> {
+    return (this.#saving = this.#saving.catch(() => undefined).then(() => this.#store()));
+  }
+
+  async #store(): Promise<void> {
     try {
       for (const part of kParts) {
-        if (JSON.stringify(this.#now[part]) === JSON.stringify(this.#saved[part])) continue;
-        this.#tags[part] = await this.options.save(part, { [part]: this.#now[part] }, this.#tags[part]);
-        this.#saved = { ...this.#saved, [part]: this.#now[part] };
+        const sent = this.#now[part]; // the operator may change `now` during the request
+        if (JSON.stringify(sent) === JSON.stringify(this.#saved[part])) continue;
+        const tag = (this.#tags[part] = await this.options.save(part, { [part]: sent }, this.#tags[part]));
+        this.#saved = { ...this.#saved, [part]: sent };
+        const draft = drafts.get(this.options.id);
+        if (draft) draft.tags[part] = tag;
       }
     } catch (error) {
+      if ((error as { status?: number }).status === 412) await this.#refresh();
       this.#showFault(error);
       throw error;
     }
     this.#change(this.#now);
+    this.#said.textContent = "";
     this.options.saved();
+  }
+
+  /** Reads what somebody else has stored. Then the operator can replace it by saving again, or see it by discarding. */
+  async #refresh(): Promise<never> {
+    await this.#read();
+    this.#change(this.#now);
+    throw new Error(this.kit.texts.notes.outdated);
   }
 
   /** Opens the note to which a refusal of the daemon refers. */

@@ -178,6 +178,7 @@ export const de: ConsoleTexts = {
     importFile: "Datei lesen…",
     imported: (count) => `${count} Notizen gelesen. Sie sind noch nicht gespeichert.`,
     noNotes: "Diese Datei hat keine Notizen: eine gespeicherte Datei wählen, oder IIIF-Annotationen mit Punkten einer Szene.",
+    outdated: "Jemand anderes hat die Notizen inzwischen geändert. Speichern ersetzt diese Änderungen, Verwerfen zeigt sie.",
     save: "Notizen und Rundgänge speichern",
     discard: "Änderungen verwerfen",
   },

@@ -176,6 +176,7 @@ export const en = {
     importFile: "Read a file…",
     imported: (count: number) => `${count} notes were read. They are not saved yet.`,
     noNotes: "This file has no notes: choose a saved file, or IIIF annotations with points of a scene.",
+    outdated: "Somebody else has changed the notes meanwhile. Saving replaces those changes; Discard shows them.",
     save: "Save notes and tours",
     discard: "Discard changes",
   },
