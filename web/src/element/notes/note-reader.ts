@@ -7,9 +7,10 @@ import type { Bench, Tool } from "../tools/bench.ts";
 import type { make as makeElement } from "../tools/dom.ts";
 import type { apiOf as addressOf } from "../tools/links.ts";
 import type { Mark } from "../tools/overlay.ts";
+import type { Light } from "../tools/light.ts";
 import type { pick as pickPoint } from "../tools/pick.ts";
 import type { anglesOf as angles, OrbitView } from "../tools/view.ts";
-import { inLanguage, languageIn, readAnnotations, triple, type Annotation, type NoteView, type StoredNote, type StoredTour, type Triple } from "./annotations.ts";
+import { inLanguage, languageIn, lightOf, readAnnotations, triple, type Annotation, type NoteView, type StoredNote, type StoredTour, type Triple } from "./annotations.ts";
 import { describe } from "./describe.ts";
 import style from "./notes.css?text";
 import { TourPlayer } from "./tour-player.ts";
@@ -23,7 +24,7 @@ export interface NoteKit {
   style(css: string): void;
   /** The container of the notes, in a sheet. */
   content: HTMLElement;
-  light: Tool;
+  light: Tool & Pick<Light, "presented">;
   section: Tool;
   onChosen(): void;
   onFilled(any: boolean): void;
@@ -59,8 +60,7 @@ export class NoteReader {
   gather(until: AbortSignal): void {
     this.#pin();
     const { host, stage } = this.bench, file = host.getAttribute("annotations") ?? "";
-    const has = Boolean(stage.mesh.info.presentation?.notes);
-    const api = has ? this.kit.apiOf(new URL(host.getAttribute("src") ?? "", document.baseURI).href) : undefined;
+    const api = stage.mesh.info.presentation?.notes ? this.#api : undefined;
     const source = `${file} ${api ?? ""}`;
     if (source === this.#source) return;
     this.#source = source;
@@ -96,7 +96,7 @@ export class NoteReader {
   /** Replaces the daemon's notes by others, which may not be saved yet. */
   preview({ notes, tours }: NoteDocuments): void {
     this.#source += " preview"; // ignores a response that arrives later
-    this.#fill(notes.map((note) => inLanguage(note, this.#language)), { notes, tours });
+    this.#fill(notes.map((note) => inLanguage(note, this.#language, this.#api)), { notes, tours });
   }
 
   /** Returns the point and the normal of the surface at a point of the window, in model coordinates. */
@@ -118,7 +118,12 @@ export class NoteReader {
     const zoom = Math.min(100, Math.max(0.1, stage.fittingDistance(target, offset.clone().normalize()) / distance));
     const direction = rounded(offset.divideScalar(distance).applyQuaternion(stage.mesh.quaternion.clone().invert()));
     const view: NoteView = { direction, zoom: Number(zoom.toPrecision(6)), ...(target.lengthSq() > 0 && { target: this.#inModel(target) }) };
-    return { view, light: this.kit.light.setting || "museum", section: this.kit.section.setting ?? "" };
+    return { view, light: lightOf(this.kit.light.presented), section: this.kit.section.setting ?? "" };
+  }
+
+  /** The URL of the model in the daemon's API. Undefined for a file. */
+  get #api(): string | undefined {
+    return this.kit.apiOf(new URL(this.bench.host.getAttribute("src") ?? "", document.baseURI).href);
   }
 
   get #language(): string {
@@ -138,7 +143,7 @@ export class NoteReader {
       ]);
       if (source !== this.#source) return;
       const documents = { notes: (stored as NoteDocuments).notes, tours: (tours as NoteDocuments).tours };
-      this.#fill([...documents.notes.map((note) => inLanguage(note, this.#language)), ...readAnnotations(own)], documents);
+      this.#fill([...documents.notes.map((note) => inLanguage(note, this.#language, api)), ...readAnnotations(own)], documents);
     } catch (error) {
       if (until.aborted || source !== this.#source) return;
       this.#fill([], { notes: [], tours: [] });
