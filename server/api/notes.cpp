@@ -205,7 +205,7 @@ static constexpr std::string_view kNotesComponents = R"json({
     "normal": {"$ref": "#/components/schemas/Vector", "description": "Direction of the surface in the coordinates of the file"},
     "texts": {"type": "object", "minProperties": 1, "maxProperties": 12, "description": "The texts by language (BCP 47)", "additionalProperties": {"$ref": "#/components/schemas/NoteText"}},
     "picture": {"type": "string", "maxLength": 1000, "description": "URL of a picture: https://, or a path on this server"},
-    "view": {"type": "object", "required": ["direction"], "additionalProperties": false, "description": "The view of the moment, in the coordinates of the file", "properties": {
+    "view": {"type": "object", "required": ["direction"], "additionalProperties": false, "description": "The view that the note shows, in the coordinates of the file", "properties": {
       "direction": {"$ref": "#/components/schemas/Vector", "description": "From the model to the eye"},
       "target": {"$ref": "#/components/schemas/Vector", "description": "The point in the middle of the view; by default the centre of the model"},
       "zoom": {"type": "number", "minimum": 0.1, "maximum": 100, "default": 1, "description": "1 shows the whole model"}}},

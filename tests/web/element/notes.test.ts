@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { inLanguage, languageIn, lightOf, type StoredNote } from "@element/notes/annotations.ts";
 import { paragraphsOf, secondsToRead } from "@element/notes/paragraphs.ts";
+import { isSounding } from "@element/notes/tour-player.ts";
 
 test("empty lines separate paragraphs, and links have labels", () => {
   expect(paragraphsOf("One,\ntwo.\r\n\r\nSee [the file](https://a.example/b?c=d), [and](http://b).\n\n\n")).toEqual([
@@ -43,4 +44,12 @@ test("a tour leaves time to read", () => {
   expect(secondsToRead("Ear", "")).toBe(5);
   expect(secondsToRead("Ear", "word ".repeat(99))).toBe(43);
   expect(secondsToRead("word ".repeat(1000))).toBe(60);
+});
+
+test("a tour waits only for a sound that plays", () => {
+  const sound = { paused: false, ended: false, error: null };
+  expect(isSounding(sound)).toBe(true);
+  expect(isSounding({ ...sound, paused: true })).toBe(false);
+  expect(isSounding({ ...sound, ended: true })).toBe(false);
+  expect(isSounding({ ...sound, error: {} as MediaError })).toBe(false);
 });

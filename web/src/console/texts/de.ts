@@ -131,7 +131,7 @@ export const de: ConsoleTexts = {
   notes: {
     title: "Notizen und Rundgänge…",
     notes: "Notizen",
-    hint: "Eine Notiz behält Ansicht, Licht und Schnitt des Augenblicks. Zuerst das Objekt ins Bild rücken, dann auf seine Oberfläche klicken.",
+    hint: "Eine Notiz behält Ansicht, Licht und Schnitt, die jetzt gewählt sind. Zuerst das Objekt ins Bild rücken, dann auf seine Oberfläche klicken.",
     place: "Notiz setzen",
     placeMiddle: "In die Mitte der Ansicht setzen",
     click: "Auf die Oberfläche klicken.",
@@ -176,7 +176,7 @@ export const de: ConsoleTexts = {
     filesHint: "Eine gespeicherte Datei ersetzt alle Notizen und Rundgänge. Eine Seite mit IIIF-Annotationen an Punkten einer Szene kommt hinzu.",
     exportFile: "Als Datei speichern",
     importFile: "Datei lesen…",
-    imported: (count) => `${count} Notizen gelesen. Sie sind noch nicht gespeichert.`,
+    imported: (count) => (count === 1 ? "Eine Notiz gelesen. Sie ist noch nicht gespeichert." : `${count} Notizen gelesen. Sie sind noch nicht gespeichert.`),
     noNotes: "Diese Datei hat keine Notizen: eine gespeicherte Datei wählen, oder IIIF-Annotationen mit Punkten einer Szene.",
     outdated: "Jemand anderes hat die Notizen inzwischen geändert. Speichern ersetzt diese Änderungen, Verwerfen zeigt sie.",
     save: "Notizen und Rundgänge speichern",

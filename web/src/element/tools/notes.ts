@@ -48,6 +48,11 @@ export class Notes implements Tool {
     if (this.#reader) this.#reader.setting = text;
   }
 
+  /** Moves the marks after the presentation of the model has changed. */
+  follow(): void {
+    this.#reader?.follow();
+  }
+
   /** Loads the code that shows notes. If that fails, a later call tries again. */
   reader(): Promise<NoteReader> {
     return (this.#loading ??= this.#load().catch((error) => {
