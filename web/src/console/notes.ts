@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits the notes on a model and the tours through them. The viewer shows changes at once. They are kept while the operator visits
 // other pages, until they are saved or discarded.
-import type { StoredNote } from "../element/notes/annotations.ts";
+import type { StoredNote, StoredTour } from "../element/notes/annotations.ts";
 import type { NoteDocuments, NoteReader } from "../element/notes/note-reader.ts";
 import { readNoteFile, type SceneScale } from "./iiif-notes.ts";
 import { NoteForm, newId, refill } from "./note-form.ts";
@@ -14,7 +14,8 @@ export interface NotesOptions {
   id: string;
   /** Name for saved files. */
   title: string;
-  scale: SceneScale;
+  /** Returns the present scale. The operator may change it while the editor is open. */
+  scale(): SceneScale;
   /** The element that contains the viewer. */
   stage: HTMLElement;
   signal: AbortSignal;
@@ -57,10 +58,10 @@ export class NotesEditor {
     this.#list = h("ol", { class: "note-list" });
     this.#said = h("p", { class: "quiet", role: "status" });
     this.#place = h("button", { type: "button", "aria-pressed": "false", onclick: () => (this.#isPlacing = !this.#isPlacing) }, words.place);
-    const middle = h("button", { type: "button", onclick: () => void this.#putInMiddle() }, words.placeMiddle);
+    const middle = h("button", { type: "button", onclick: () => void this.#attempt(() => this.#putInMiddle()) }, words.placeMiddle);
     this.#noteForm = new NoteForm(kit, {
       changed: (note) => this.#replace(note),
-      takeView: () => void this.#takeView(),
+      takeView: () => void this.#attempt(() => this.#takeView()),
       move: () => this.#move(),
       remove: () => this.#remove(),
     });
@@ -75,17 +76,22 @@ export class NotesEditor {
     ], words.save, () => this.#save());
     this.#form.querySelector(".actions:has([type=submit])")?.append(this.#discard);
     this.element = h("div", { class: "presentation notes-editor" }, this.#form);
-    this.#listen();
   }
 
   /** Reads the stored notes and tours. Continues with unsaved changes, if there are any. */
   async open(): Promise<void> {
     await this.#read();
     this.#change(drafts.get(this.options.id)?.documents ?? this.#saved, true);
+    this.#listen();
     const draft = drafts.get(this.options.id); // #change() removes a draft that equals the stored documents
     if (!draft) return;
     const isOutdated = kParts.some((part) => draft.tags[part] !== this.#tags[part]);
     this.#said.textContent = isOutdated ? this.kit.texts.notes.outdated : this.kit.texts.presentation.restored;
+  }
+
+  /** Ends the placing of notes, because the operator closes the editor. */
+  rest(): void {
+    if (this.#isPlacing) this.#isPlacing = false;
   }
 
   async #read(): Promise<void> {
@@ -103,10 +109,11 @@ export class NotesEditor {
   #listen(): void {
     const { stage, signal } = this.options, options = { signal, capture: true };
     let down: PointerEvent | undefined;
-    stage.addEventListener("pointerdown", (event) => (down = event), options);
+    stage.addEventListener("pointerdown", (event) => (down = event.button === 0 ? event : undefined), options);
     stage.addEventListener("pointerup", (event) => {
       const isClick = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < kStill;
-      if (this.#isPlacing && isClick && event.composedPath()[0] instanceof HTMLCanvasElement) void this.#put(event.clientX, event.clientY);
+      const isPlace = this.#isPlacing && isClick && event.button === 0 && event.composedPath()[0] instanceof HTMLCanvasElement;
+      if (isPlace) void this.#attempt(() => this.#put(event.clientX, event.clientY));
     }, options);
     // A new viewer shows the saved notes first.
     stage.addEventListener("load", () => void this.#preview(), options);
@@ -121,6 +128,11 @@ export class NotesEditor {
     this.options.stage.classList.toggle("measuring", on);
     if (!on) this.#moved = "";
     this.#said.textContent = on ? (this.#moved ? words.clickMove : words.click) : "";
+  }
+
+  /** Runs `act`, which needs the viewer. Says so if the viewer is not ready. */
+  async #attempt(act: () => Promise<void>): Promise<void> {
+    await act().catch(() => (this.#said.textContent = this.kit.texts.notes.noViewer));
   }
 
   #reader(): Promise<NoteReader> {
@@ -159,6 +171,7 @@ export class NotesEditor {
   }
 
   #remove(): void {
+    this.rest();
     const gone = this.#chosen;
     this.#chosen = "";
     const tours = this.#now.tours.map((tour) => ({ ...tour, steps: tour.steps.filter(({ note }) => note !== gone) }));
@@ -211,7 +224,7 @@ export class NotesEditor {
 
   async #preview(): Promise<void> {
     // Without a viewer, the notes can still be edited.
-    (await this.#reader().catch(() => undefined))?.preview(this.#now);
+    await this.#reader().then((reader) => reader.preview(this.#now), () => undefined);
   }
 
   /** Saves after an earlier call has ended, so that both use the newest entity tags. */
@@ -220,6 +233,7 @@ export class NotesEditor {
   }
 
   async #store(): Promise<void> {
+    this.#change({ ...this.#now, tours: this.#now.tours.map(withoutEmptyTitles) });
     try {
       for (const part of kParts) {
         const sent = this.#now[part]; // the operator may change `now` during the request
@@ -246,12 +260,19 @@ export class NotesEditor {
     throw new Error(this.kit.texts.notes.outdated);
   }
 
-  /** Opens the note to which a refusal of the daemon refers. */
+  /** Opens the note, in the language, to which a refusal of the daemon refers. Keeps only the faults that are in the form then. */
   #showFault(error: unknown): void {
-    const [, number] = /^notes\.(\d+)/.exec((error as { faults?: { parameter: string }[] }).faults?.[0]?.parameter ?? "") ?? [];
+    const { faults } = error as { faults?: { parameter: string }[] }, [, number, language] = placeOf(faults?.[0]?.parameter);
     const note = number === undefined ? undefined : this.#now.notes[Number(number)];
-    if (!note || note.id === this.#chosen) return;
+    if (!faults || !note) return;
+    const tag = language ?? placeOf(faults.find(({ parameter }) => placeOf(parameter)[1] === number && placeOf(parameter)[2])?.parameter)[2];
+    const shown = faults.filter(({ parameter }) => {
+      const [, ofNumber, ofLanguage] = placeOf(parameter);
+      return ofNumber === number && (ofLanguage === undefined || ofLanguage === tag);
+    });
+    faults.splice(0, faults.length, ...shown);
     this.#chosen = note.id;
+    if (tag !== undefined) this.#noteForm.language = tag;
     this.#change(this.#now, true);
   }
 
@@ -266,7 +287,7 @@ export class NotesEditor {
     input.value = "";
     if (!file) return;
     try {
-      const read = readNoteFile(await file.text(), this.options.scale, newId, words.noNotes);
+      const read = readNoteFile(await file.text(), this.options.scale(), newId, words.noNotes);
       this.#chosen = "";
       this.#change(read.isWhole ? { notes: read.notes, tours: read.tours } : { ...this.#now, notes: [...this.#now.notes, ...read.notes] }, true);
       this.#said.textContent = words.imported(read.notes.length);
@@ -274,4 +295,15 @@ export class NotesEditor {
       this.#said.textContent = (error as Error).message;
     }
   }
+}
+
+/** Returns the number of a note and the language that the path of a fault names, after the whole match. */
+function placeOf(parameter = ""): string[] {
+  return /^notes\.(\d+)(?:\.texts\.([^.]+))?/.exec(parameter) ?? [];
+}
+
+/** Leaves out the languages in which a tour has no title. A tour keeps at least one language. */
+function withoutEmptyTitles(tour: StoredTour): StoredTour {
+  const titles = Object.entries(tour.titles), named = titles.filter(([, title]) => title !== "");
+  return { ...tour, titles: Object.fromEntries(named.length > 0 ? named : titles.slice(0, 1)) };
 }
