@@ -263,6 +263,50 @@ test("text that is typed while a save is under way is kept", { timeout: 120_000 
   await desk.close();
 });
 
+test("the editor opens once, keeps the focus in its tour, and ends placing when it is closed", { timeout: 120_000 }, async (context) => {
+  context.after(restore);
+  await put("tours", [tours[0], { ...tours[0], id: "second", titles: { en: "Second", de: "Zweiter" } }]);
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk, summary = page.getByText("Notes and tours…");
+  await desk.go(`models/${id}`, "Bust");
+  await page.waitForFunction(() => document.querySelector("progressive-mesh")?.presenter);
+  await summary.evaluate((element) => [1, 2, 3].forEach(() => element.click())); // the file of the editor is still being loaded
+  await page.getByRole("button", { name: "Place a note" }).waitFor();
+  assert.equal(await page.locator(".notes-editor").count(), 1);
+
+  const second = page.getByRole("group", { name: "Tour 2" });
+  await second.getByRole("button", { name: "Move stop 3 up" }).press("Enter");
+  const focus = () => page.evaluate(() => [document.activeElement.closest("[role=group]")?.ariaLabel, document.activeElement.ariaLabel]);
+  assert.deepEqual(await focus(), ["Tour 2", "Move stop 3 up"]);
+  await second.getByRole("button", { name: "Move stop 2 up" }).press("Enter");
+  await second.getByRole("button", { name: "Remove stop 3" }).press("Enter");
+  assert.equal((await focus())[0], "Tour 2", "the control is gone");
+  await second.locator("[name=de]").fill("");
+  await desk.press("Save notes and tours");
+  await saved(page);
+  assert.deepEqual((await read("tours"))[1], { id: "second", titles: { en: "Second" }, steps: [{ note: "left" }, { note: "face", seconds: 30 }] });
+
+  // A fault is shown at its note and in its language.
+  const name = page.locator(".note-list .name"), field = (part) => page.locator(`.note-form [name=${part}]`);
+  await name.nth(0).click();
+  await field("language").selectOption("de");
+  await field("audio").fill("sound.mp3");
+  await field("language").selectOption("en");
+  await name.nth(1).click();
+  await desk.press("Save notes and tours");
+  await page.locator("[name=audio][aria-invalid]:focus").waitFor();
+  assert.deepEqual([await field("language").inputValue(), await field("title").inputValue()], ["de", "Gesicht"]);
+  await desk.press("Discard changes");
+
+  const place = page.getByRole("button", { name: "Place a note" });
+  await place.click();
+  assert.equal(await place.getAttribute("aria-pressed"), "true");
+  await summary.click();
+  await summary.click();
+  assert.equal(await place.getAttribute("aria-pressed"), "false");
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
 test("a visitor plays the tour by keyboard, and screen readers read each stop", { timeout: 120_000 }, async () => {
   const viewer = await open(), { page } = viewer, panel = page.locator(".tour-panel"), start = await orbit(viewer);
   await page.locator("canvas").focus();
