@@ -24,7 +24,7 @@ export async function newContext(browser, options) {
   return context;
 }
 
-const kEvents = ["first-paint", "refine", "picture", "memory", "progress", "load", "error", "camera-change"];
+const kEvents = ["first-paint", "refine", "picture", "memory", "progress", "load", "error", "camera-change", "tour-step"];
 
 /**
  * Runs in the page: sets `attributes` on each <progressive-mesh> as soon as it is in the document. Sets `style` as a property,

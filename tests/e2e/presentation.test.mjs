@@ -169,7 +169,7 @@ test("an operator turns, scales and presents a model in the console", async () =
   near(Number(await field("scale").inputValue()), 2, 0.01);
   near((await seen())[0], 2 * plain.width, 0.02);
 
-  // The view and the light of the moment.
+  // The present view and light.
   await viewer.locator("canvas").press("ArrowRight");
   await viewer.locator("button[name=light]").click();
   await viewer.locator("label:has([value=raking])").click();
@@ -205,7 +205,7 @@ test("an operator turns, scales and presents a model in the console", async () =
   const { presentation, dimensions } = await model();
   assert.equal(presentation.scale, 2);
   assert.equal(presentation.light.preset, "raking");
-  assert.ok(presentation.view.azimuth > 20, "the view of the moment");
+  assert.ok(presentation.view.azimuth > 20, "the present view");
   near(dimensions.height, 2 * plain.height, 1e-3);
   await page.waitForFunction((width) => Math.abs((document.querySelector("progressive-mesh")?.presenter?.size[0] ?? 0) / width - 2) < 0.02, plain.width);
   assert.ok(await page.getByRole("button", { name: "Discard changes" }).isDisabled());

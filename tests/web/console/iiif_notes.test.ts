@@ -29,6 +29,36 @@ test("an annotation without a label has the first line as its title", () => {
 
 test.each(["{", "[]", "null", page(), page(annotation({ target: "https://a/canvas" })), { type: "Manifest", items: [] }])("%j has no notes", (json) => expect(() => read(json)).toThrow("no notes"));
 
+test("a long first line is cut to a title, and kept as text", () => {
+  const textOf = (value: string, label?: object) => read(page(annotation({ label, body: { type: "TextualBody", value } }))).notes[0]?.texts["en"];
+  const line = "a".repeat(300), faces = "\u{1F600}".repeat(60);
+  expect(textOf(`${line}\nMore.`)).toEqual({ title: "a".repeat(200), text: `${line}\nMore.` });
+  expect(textOf(`x${faces}`)).toEqual({ title: `x${"\u{1F600}".repeat(49)}`, text: `x${faces}` });
+  expect(textOf("é".repeat(100))).toEqual({ title: "é".repeat(100), text: "" });
+  expect(textOf("More.", { en: [line] })).toEqual({ title: "a".repeat(200), text: `${line}\n\nMore.` });
+  expect(textOf(line, { en: [line] })).toEqual({ title: "a".repeat(200), text: line });
+});
+
+const note = { id: "a", position: [1, 2, 3], texts: { en: { title: "A" } } };
+const tour = { id: "t", titles: { en: "T" }, steps: [{ note: "a" }] };
+
+test.each([
+  { ...note, id: 1 }, { ...note, position: [1, 2] }, { ...note, position: [1, 2, "3"] }, { ...note, texts: {} }, { ...note, texts: { en: null } }, { ...note, texts: { en: { text: "A" } } },
+  { ...note, texts: undefined }, { ...note, view: {} }, null, "note",
+])("the note %j is refused", (malformed) => expect(() => read({ notes: [note, malformed] })).toThrow("no notes"));
+
+test.each([{ ...tour, titles: {} }, { ...tour, titles: null }, { ...tour, steps: undefined }, { ...tour, steps: [null] }, { ...tour, steps: [{}] }, null])("the tour %j is refused", (malformed) =>
+  expect(() => read({ notes: [note], tours: [tour, malformed] })).toThrow("no notes"));
+
+test("tours that are no list are refused, and may be missing", () => {
+  expect(() => read({ notes: [note], tours: {} })).toThrow("no notes");
+  expect(read({ notes: [note] }).tours).toEqual([]);
+});
+
+test.each([null, annotation({ label: null }), annotation({ label: { en: null } }), annotation({ body: { type: "TextualBody", value: 1 } }), annotation({ body: [null] }), annotation({ target: null }),
+  annotation({ target: { selector: [null] } }), annotation({ target: { selector: { type: "PointSelector", x: "1", y: 2, z: 3 } } })])("the annotation %j is refused", (malformed) =>
+  expect(() => read(page(annotation(), malformed))).toThrow("no notes"));
+
 test("points of the scene are turned and scaled back to the file", () => {
   // The presentation turns z up to y up and takes inches as file units; the scene is in metres.
   const scale = { presentation: { rotation: [-kHalf, 0, 0, kHalf] as [number, number, number, number], scale: 25.4 }, unit: "mm" };

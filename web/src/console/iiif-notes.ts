@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads notes from a file: one that the console has saved, or a page of IIIF annotations at points of the model's scene.
-import type { StoredNote, StoredTour } from "../element/notes/annotations.ts";
+import type { NoteText, StoredNote, StoredTour } from "../element/notes/annotations.ts";
 import type { Presentation } from "../core/presentation.ts";
+import { isAnnotation, isNoteList, isObject, isTourList, type IiifAnnotation } from "./note-checks.ts";
 
 export interface NoteFile {
   notes: StoredNote[];
@@ -18,20 +19,8 @@ export interface SceneScale {
   unit: string;
 }
 
+const kMostTitle = 200; // bytes of UTF-8
 const kMetres: Record<string, number> = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254 };
-
-interface Body {
-  type?: string;
-  id?: string;
-  value?: string;
-  language?: string;
-}
-interface IiifAnnotation {
-  label?: Record<string, string[]>;
-  body?: Body | Body[];
-  target?: { selector?: Selector | Selector[] };
-}
-type Selector = { type?: string; x?: number; y?: number; z?: number };
 
 const listOf = <T>(value: T | T[] | undefined): T[] => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
 
@@ -44,32 +33,56 @@ export function inFile([x, y, z]: Vector, { presentation: { rotation: [a, b, c, 
   return [px + 2 * (w * ux + tx), py + 2 * (w * uy + ty), pz + 2 * (w * uz + tz)];
 }
 
-/** Reads a file. `newId` returns IDs for annotations. Throws if the file has no notes; `missing` is the message. */
+/** Reads a file. `newId` returns IDs for annotations. Throws if the file is malformed or has no notes; `missing` is the message. */
 export function readNoteFile(text: string, scale: SceneScale, newId: () => string, missing: string): NoteFile {
-  let json: { type?: string; items?: IiifAnnotation[]; notes?: StoredNote[]; tours?: StoredTour[] } | null = null;
-  try {
-    json = JSON.parse(text);
-  } catch {
-    throw new Error(missing);
+  const json = jsonOf(text);
+  if (isObject(json) && Array.isArray(json["notes"])) {
+    const { notes, tours = [] } = json;
+    if (!isNoteList(notes) || !isTourList(tours)) throw new Error(missing);
+    return { notes, tours, isWhole: true };
   }
-  if (Array.isArray(json?.notes)) return { notes: json.notes, tours: json.tours ?? [], isWhole: true };
-  const notes = listOf(json?.items).flatMap((item) => noteOf(item, scale, newId));
-  if (json?.type !== "AnnotationPage" || notes.length === 0) throw new Error(missing);
+  const items = isObject(json) && json["type"] === "AnnotationPage" ? listOf(json["items"]) : [];
+  if (!items.every(isAnnotation)) throw new Error(missing);
+  const notes = items.flatMap((item) => noteOf(item, scale, newId));
+  if (notes.length === 0) throw new Error(missing);
   return { notes, tours: [], isWhole: false };
+}
+
+function jsonOf(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return undefined;
+  }
 }
 
 function noteOf({ label = {}, body, target }: IiifAnnotation, scale: SceneScale, newId: () => string): StoredNote[] {
   const { x, y, z } = listOf(target?.selector).find(({ type }) => type === "PointSelector") ?? {};
   if (x === undefined || y === undefined || z === undefined) return [];
   const bodies = listOf(body), texts: StoredNote["texts"] = {};
-  for (const { type, value = "", language = "en" } of bodies) {
-    if (type !== "TextualBody") continue;
-    const title = label[language]?.[0] ?? label["none"]?.[0] ?? "";
-    const [first = "", ...rest] = value.split("\n");
-    texts[language] = title ? { title, ...(value !== title && { text: value }) } : { title: first.slice(0, 100) || "…", text: rest.join("\n").trim() };
-  }
+  for (const { type, value = "", language = "en" } of bodies)
+    if (type === "TextualBody") texts[language] = textOf(label[language]?.[0] ?? label["none"]?.[0] ?? "", value);
   for (const { type, id, language = "en" } of bodies) if (type === "Sound" && id && texts[language]) texts[language].audio = id;
   const picture = bodies.find(({ type }) => type === "Image")?.id;
   if (Object.keys(texts).length === 0) return [];
   return [{ id: newId(), position: inFile([x, y, z], scale), texts, ...(picture && { picture }) }];
+}
+
+/** Returns the text of a note. Without a label, its title is the first line. If a title is too long, the text has all of it. */
+function textOf(label: string, value: string): NoteText {
+  const [first = "", ...rest] = value.split("\n"), whole = label || first, title = shortened(whole) || "…";
+  if (title !== whole && whole !== "") return { title, text: !label || label === value ? value : `${label}\n\n${value}`.trim() };
+  if (label) return { title, ...(value !== label && { text: value }) };
+  return { title, text: rest.join("\n").trim() };
+}
+
+/** Returns the beginning of a title, at most as many bytes as the daemon allows. Keeps characters whole. */
+function shortened(title: string): string {
+  let bytes = 0, end = 0;
+  for (const character of title) {
+    bytes += new TextEncoder().encode(character).length;
+    if (bytes > kMostTitle) return title.slice(0, end);
+    end += character.length;
+  }
+  return title;
 }

@@ -49,6 +49,7 @@ class ModelEditor {
   readonly #noting = h("details", { class: "card setting noting", ontoggle: () => void this.#openNotes() }, h("summary", {}, texts.notes.title));
   #editor: PresentationEditor | undefined;
   #notes: NotesEditor | undefined;
+  #openingNotes: Promise<void> | undefined; // while the editor of notes is being loaded
   readonly #title = h("h1", { tabindex: -1 });
   readonly #state = h("span");
   #tag = "";
@@ -109,16 +110,25 @@ class ModelEditor {
 
   /** Loads the editor of notes and tours when it is first opened. */
   async #openNotes(): Promise<void> {
-    if (this.#notes || !this.#noting.open || !this.#model) return;
-    const { desk: { api, say }, signal } = this.visit, { title, presentation, unit } = this.#model, alert = new Alert();
+    if (!this.#noting.open) return this.#notes?.rest();
+    if (this.#notes || !this.#model) return;
+    const alert = new Alert(), attempt = async () => {
+      this.#noting.querySelector(":scope > .alert")?.remove(); // of an attempt that failed
+      if (!(await alert.attempt(() => this.#loadNotes()))) this.#noting.append(alert.element);
+    };
+    await (this.#openingNotes ??= attempt().finally(() => (this.#openingNotes = undefined)));
+  }
+
+  async #loadNotes(): Promise<void> {
+    const { desk: { api, say }, signal } = this.visit, model = () => this.#model as ModelRecord;
     const { NotesEditor } = await import("./notes.ts");
     const path = (part: NotePart) => `${this.#path}/${part}`;
     const editor = new NotesEditor({ h, field, form, texts, gallery, language }, {
-      id: this.id, title, scale: { presentation, unit }, stage: this.#stage, signal, saved: () => say(words.saved),
+      id: this.id, title: model().title, scale: model, stage: this.#stage, signal, saved: () => say(words.saved),
       read: (part) => api.tagged(path(part), signal),
       save: async (part, documents, tag) => (await api.sendTagged("PUT", path(part), documents, tag)).tag,
     });
-    if (!(await alert.attempt(() => editor.open()))) return this.#noting.append(alert.element);
+    await editor.open();
     this.#notes = editor;
     this.#noting.append(editor.element);
   }

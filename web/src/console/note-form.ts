@@ -11,11 +11,32 @@ export function newId(): string {
   return Array.from(crypto.getRandomValues(new Uint8Array(6)), (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-/** Replaces the contents of a list. The control of the same name keeps the focus. */
+/**
+ * Replaces the entries of a list. The focus stays at the control of the same name, and in the same entry if several entries have
+ * such a control. If the control is gone or disabled, the next enabled one gets the focus.
+ */
 export function refill(list: HTMLElement, entries: HTMLElement[]): void {
-  const focused = list.contains(document.activeElement) ? document.activeElement : null, name = focused?.ariaLabel ?? focused?.textContent;
+  const focused = list.contains(document.activeElement) ? (document.activeElement as HTMLElement) : undefined;
+  const entry = [...list.children].findIndex((one) => one.contains(focused ?? null)), at = focused ? controlsIn(list.children[entry]).indexOf(focused) : -1;
   list.replaceChildren(...entries);
-  if (name) [...list.querySelectorAll<HTMLElement>("button, input, select")].find((control) => (control.ariaLabel ?? control.textContent) === name)?.focus();
+  if (focused) successor(list, entry, at, nameOf(focused))?.focus();
+}
+
+function successor(list: HTMLElement, entry: number, at: number, name: string): HTMLElement | undefined {
+  const sameEntry = controlsIn(list.children[entry]), isSame = (control: HTMLElement) => nameOf(control) === name;
+  const same = sameEntry.find(isSame) ?? controlsIn(list).find(isSame);
+  if (same && !same.matches(":disabled")) return same;
+  const around = same ? controlsIn([...list.children].find((one) => one.contains(same))) : sameEntry, from = same ? around.indexOf(same) : at;
+  const all = [...around.slice(from), ...around.slice(0, Math.max(from, 0)).reverse(), ...controlsIn(list), ...controlsIn(list.parentElement)];
+  return all.find((control) => !control.matches(":disabled"));
+}
+
+function controlsIn(element: Element | null | undefined): HTMLElement[] {
+  return [...(element?.querySelectorAll<HTMLElement>("button, input, select") ?? [])];
+}
+
+function nameOf(control: HTMLElement): string {
+  return control.ariaLabel ?? (control.getAttribute("name") || (control.textContent ?? ""));
 }
 
 interface NoteActions {
@@ -47,6 +68,10 @@ export class NoteForm {
 
   get language(): string {
     return this.#languages.value;
+  }
+  set language(tag: string) {
+    this.#offer([tag]);
+    this.#languages.value = tag;
   }
 
   /** Returns the title of a note in the present language, or else in another. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits the notes on a model and the tours through them. The viewer shows changes at once. They are kept while the operator visits
 // other pages, until they are saved or discarded.
-import type { StoredNote } from "../element/notes/annotations.ts";
+import type { StoredNote, StoredTour } from "../element/notes/annotations.ts";
 import type { NoteDocuments, NoteReader } from "../element/notes/note-reader.ts";
 import { readNoteFile, type SceneScale } from "./iiif-notes.ts";
 import { NoteForm, newId, refill } from "./note-form.ts";
@@ -14,7 +14,8 @@ export interface NotesOptions {
   id: string;
   /** Name for saved files. */
   title: string;
-  scale: SceneScale;
+  /** Returns the present scale. The operator may change it while the editor is open. */
+  scale(): SceneScale;
   /** The element that contains the viewer. */
   stage: HTMLElement;
   signal: AbortSignal;
@@ -27,7 +28,13 @@ export interface NotesOptions {
 const kParts = ["notes", "tours"] as const;
 const kStill = 5; // pixels that the pointer may move during a click
 
-const drafts = new Map<string, NoteDocuments>(); // unsaved changes by the model's ID
+/** Unsaved changes, and the entity tags of the stored documents on which they are based. */
+interface Draft {
+  documents: NoteDocuments;
+  tags: Record<NotePart, string>;
+}
+
+const drafts = new Map<string, Draft>(); // by the model's ID
 addEventListener("beforeunload", (event) => drafts.size > 0 && event.preventDefault());
 
 export class NotesEditor {
@@ -40,6 +47,7 @@ export class NotesEditor {
   readonly #discard: HTMLButtonElement;
   readonly #said: HTMLElement;
   readonly #tags: Record<NotePart, string> = { notes: "", tours: "" };
+  #saving: Promise<void> = Promise.resolve();
   #saved: NoteDocuments = { notes: [], tours: [] };
   #now: NoteDocuments = { notes: [], tours: [] };
   #chosen = ""; // ID of the note in the form
@@ -50,16 +58,16 @@ export class NotesEditor {
     this.#list = h("ol", { class: "note-list" });
     this.#said = h("p", { class: "quiet", role: "status" });
     this.#place = h("button", { type: "button", "aria-pressed": "false", onclick: () => (this.#isPlacing = !this.#isPlacing) }, words.place);
-    const middle = h("button", { type: "button", onclick: () => void this.#putInMiddle() }, words.placeMiddle);
+    const middle = h("button", { type: "button", onclick: () => void this.#attempt(() => this.#putInMiddle()) }, words.placeMiddle);
     this.#noteForm = new NoteForm(kit, {
       changed: (note) => this.#replace(note),
-      takeView: () => void this.#takeView(),
+      takeView: () => void this.#attempt(() => this.#takeView()),
       move: () => this.#move(),
       remove: () => this.#remove(),
     });
     this.#tourForm = new TourForm(kit, (tours) => this.#change({ ...this.#now, tours }));
     const file = h("input", { type: "file", accept: ".json,application/json,application/ld+json", hidden: true, onchange: () => void this.#import(file) });
-    this.#discard = h("button", { type: "button", onclick: () => this.#change(this.#saved, true) }, words.discard);
+    this.#discard = h("button", { type: "button", onclick: () => this.#dismiss() }, words.discard);
     this.#form = form([
       h("fieldset", {}, h("legend", {}, words.notes), h("p", { class: "quiet" }, words.hint), h("div", { class: "actions" }, this.#place, middle), this.#said, this.#list, this.#noteForm.element),
       this.#tourForm.element,
@@ -68,27 +76,44 @@ export class NotesEditor {
     ], words.save, () => this.#save());
     this.#form.querySelector(".actions:has([type=submit])")?.append(this.#discard);
     this.element = h("div", { class: "presentation notes-editor" }, this.#form);
-    this.#listen();
   }
 
   /** Reads the stored notes and tours. Continues with unsaved changes, if there are any. */
   async open(): Promise<void> {
+    await this.#read();
+    this.#change(drafts.get(this.options.id)?.documents ?? this.#saved, true);
+    this.#listen();
+    const draft = drafts.get(this.options.id); // #change() removes a draft that equals the stored documents
+    if (!draft) return;
+    const isOutdated = kParts.some((part) => draft.tags[part] !== this.#tags[part]);
+    this.#said.textContent = isOutdated ? this.kit.texts.notes.outdated : this.kit.texts.presentation.restored;
+  }
+
+  /** Ends the placing of notes, because the operator closes the editor. */
+  rest(): void {
+    if (this.#isPlacing) this.#isPlacing = false;
+  }
+
+  async #read(): Promise<void> {
     const [notes, tours] = await Promise.all(kParts.map((part) => this.options.read(part)));
     this.#tags.notes = notes?.tag ?? "";
     this.#tags.tours = tours?.tag ?? "";
     this.#saved = { notes: notes?.value.notes ?? [], tours: tours?.value.tours ?? [] };
-    const draft = drafts.get(this.options.id);
-    this.#change(draft ?? this.#saved, true);
-    if (draft) this.#said.textContent = this.kit.texts.presentation.restored;
+  }
+
+  #dismiss(): void {
+    this.#said.textContent = "";
+    this.#change(this.#saved, true);
   }
 
   #listen(): void {
     const { stage, signal } = this.options, options = { signal, capture: true };
     let down: PointerEvent | undefined;
-    stage.addEventListener("pointerdown", (event) => (down = event), options);
+    stage.addEventListener("pointerdown", (event) => (down = event.button === 0 ? event : undefined), options);
     stage.addEventListener("pointerup", (event) => {
       const isClick = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < kStill;
-      if (this.#isPlacing && isClick && event.composedPath()[0] instanceof HTMLCanvasElement) void this.#put(event.clientX, event.clientY);
+      const isPlace = this.#isPlacing && isClick && event.button === 0 && event.composedPath()[0] instanceof HTMLCanvasElement;
+      if (isPlace) void this.#attempt(() => this.#put(event.clientX, event.clientY));
     }, options);
     // A new viewer shows the saved notes at first, so the unsaved ones are shown again.
     stage.addEventListener("load", () => void this.#preview(), options);
@@ -103,6 +128,11 @@ export class NotesEditor {
     this.options.stage.classList.toggle("measuring", on);
     if (!on) this.#moved = "";
     this.#said.textContent = on ? (this.#moved ? words.clickMove : words.click) : "";
+  }
+
+  /** Runs `act`, which needs the viewer. Says so if the viewer is not ready. */
+  async #attempt(act: () => Promise<void>): Promise<void> {
+    await act().catch(() => (this.#said.textContent = this.kit.texts.notes.noViewer));
   }
 
   #reader(): Promise<NoteReader> {
@@ -141,6 +171,7 @@ export class NotesEditor {
   }
 
   #remove(): void {
+    this.rest();
     const gone = this.#chosen;
     this.#chosen = "";
     const tours = this.#now.tours.map((tour) => ({ ...tour, steps: tour.steps.filter(({ note }) => note !== gone) }));
@@ -168,7 +199,7 @@ export class NotesEditor {
     this.#now = now;
     const isSame = JSON.stringify(now) === JSON.stringify(this.#saved);
     if (isSame) drafts.delete(this.options.id);
-    else drafts.set(this.options.id, now);
+    else drafts.set(this.options.id, { documents: now, tags: drafts.get(this.options.id)?.tags ?? { ...this.#tags } });
     this.#discard.disabled = isSame;
     (this.#form.querySelector("[type=submit]") as HTMLButtonElement).disabled = isSame;
     this.#noteForm.note = this.#note;
@@ -193,30 +224,55 @@ export class NotesEditor {
 
   async #preview(): Promise<void> {
     // Without a viewer, the notes can still be edited.
-    (await this.#reader().catch(() => undefined))?.preview(this.#now);
+    await this.#reader().then((reader) => reader.preview(this.#now), () => undefined);
   }
 
-  async #save(): Promise<void> {
+  /** Saves after an earlier call has ended, so that both use the newest entity tags. */
+  #save(): Promise<void> {
+    return (this.#saving = this.#saving.catch(() => undefined).then(() => this.#store()));
+  }
+
+  async #store(): Promise<void> {
+    this.#change({ ...this.#now, tours: this.#now.tours.map(withoutEmptyTitles) });
     try {
       for (const part of kParts) {
-        if (JSON.stringify(this.#now[part]) === JSON.stringify(this.#saved[part])) continue;
-        this.#tags[part] = await this.options.save(part, { [part]: this.#now[part] }, this.#tags[part]);
-        this.#saved = { ...this.#saved, [part]: this.#now[part] };
+        const sent = this.#now[part]; // the operator may change `now` during the request
+        if (JSON.stringify(sent) === JSON.stringify(this.#saved[part])) continue;
+        const tag = (this.#tags[part] = await this.options.save(part, { [part]: sent }, this.#tags[part]));
+        this.#saved = { ...this.#saved, [part]: sent };
+        const draft = drafts.get(this.options.id);
+        if (draft) draft.tags[part] = tag;
       }
     } catch (error) {
+      if ((error as { status?: number }).status === 412) await this.#refresh();
       this.#showFault(error);
       throw error;
     }
     this.#change(this.#now);
+    this.#said.textContent = "";
     this.options.saved();
   }
 
-  /** Opens the note to which a refusal of the daemon refers. */
+  /** Reads what somebody else has stored. Then the operator can replace it by saving again, or see it by discarding. */
+  async #refresh(): Promise<never> {
+    await this.#read();
+    this.#change(this.#now);
+    throw new Error(this.kit.texts.notes.outdated);
+  }
+
+  /** Opens the note, in the language, to which a refusal of the daemon refers. Keeps only the faults that are in the form then. */
   #showFault(error: unknown): void {
-    const [, number] = /^notes\.(\d+)/.exec((error as { faults?: { parameter: string }[] }).faults?.[0]?.parameter ?? "") ?? [];
+    const { faults } = error as { faults?: { parameter: string }[] }, [, number, language] = placeOf(faults?.[0]?.parameter);
     const note = number === undefined ? undefined : this.#now.notes[Number(number)];
-    if (!note || note.id === this.#chosen) return;
+    if (!faults || !note) return;
+    const tag = language ?? placeOf(faults.find(({ parameter }) => placeOf(parameter)[1] === number && placeOf(parameter)[2])?.parameter)[2];
+    const shown = faults.filter(({ parameter }) => {
+      const [, ofNumber, ofLanguage] = placeOf(parameter);
+      return ofNumber === number && (ofLanguage === undefined || ofLanguage === tag);
+    });
+    faults.splice(0, faults.length, ...shown);
     this.#chosen = note.id;
+    if (tag !== undefined) this.#noteForm.language = tag;
     this.#change(this.#now, true);
   }
 
@@ -231,7 +287,7 @@ export class NotesEditor {
     input.value = "";
     if (!file) return;
     try {
-      const read = readNoteFile(await file.text(), this.options.scale, newId, words.noNotes);
+      const read = readNoteFile(await file.text(), this.options.scale(), newId, words.noNotes);
       this.#chosen = "";
       this.#change(read.isWhole ? { notes: read.notes, tours: read.tours } : { ...this.#now, notes: [...this.#now.notes, ...read.notes] }, true);
       this.#said.textContent = words.imported(read.notes.length);
@@ -239,4 +295,15 @@ export class NotesEditor {
       this.#said.textContent = (error as Error).message;
     }
   }
+}
+
+/** Returns the number of a note and the language that the path of a fault names, after the whole match. */
+function placeOf(parameter = ""): string[] {
+  return /^notes\.(\d+)(?:\.texts\.([^.]+))?/.exec(parameter) ?? [];
+}
+
+/** Leaves out the languages in which a tour has no title. A tour keeps at least one language. */
+function withoutEmptyTitles(tour: StoredTour): StoredTour {
+  const titles = Object.entries(tour.titles), named = titles.filter(([, title]) => title !== "");
+  return { ...tour, titles: Object.fromEntries(named.length > 0 ? named : titles.slice(0, 1)) };
 }

@@ -42,13 +42,13 @@ export class TourForm {
     const titles = Object.entries(tour.titles).map(([tag, title]) => this.#title(i, tag, title));
     const steps = tour.steps.map((step, at) => this.#step(i, tour, step, at));
     const add = () => this.#replace(i, (old) => ({ ...old, steps: [...old.steps, { note: (this.#now.notes[0] as { id: string }).id }] }));
+    const missing = ["en", "de", "fr", "es", "it"].find((tag) => !(tag in tour.titles));
     const language = () => {
-      const missing = ["en", "de", "fr", "es", "it"].find((tag) => !(tag in tour.titles));
       if (missing) this.#replace(i, (old) => ({ ...old, titles: { ...old.titles, [missing]: Object.values(old.titles)[0] ?? "" } }));
     };
     return h("div", { class: "tour", role: "group", "aria-label": words.tour(i + 1) }, ...titles, h("ol", { class: "steps" }, ...steps),
       h("div", { class: "actions" }, h("button", { type: "button", disabled: this.#now.notes.length === 0, onclick: add }, words.addStep),
-        h("button", { type: "button", onclick: language }, words.addLanguage),
+        h("button", { type: "button", disabled: missing === undefined, onclick: language }, words.addLanguage),
         h("button", { type: "button", class: "danger", onclick: () => this.#replace(i, () => undefined) }, words.removeTour)));
   }
 

@@ -173,7 +173,10 @@ export class Stage {
     style.cursor = isEnabled ? "" : "default";
   }
 
-  /** Sets whether the camera rotates around the model automatically. */
+  /** Whether the camera rotates around the model automatically. */
+  get isTurning(): boolean {
+    return this.#controls.autoRotate;
+  }
   set isTurning(on: boolean) {
     this.#controls.autoRotate = on;
     this.#turned = performance.now();

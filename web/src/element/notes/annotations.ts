@@ -5,6 +5,8 @@
 // coordinates, or an object with that list as `annotations`. `normal` and `text` are optional. The daemon's notes and tours are
 // described by the schemas Note and Tour of its API.
 
+import type { PresentedLight } from "../../core/presentation.ts";
+
 export type Triple = [number, number, number];
 
 /** A view in model coordinates, so that it stays the same if the presentation of the model changes. */
@@ -88,12 +90,29 @@ export function languageIn(entries: Record<string, unknown>, wanted: string): st
     ?? tags.find((tag) => primary(tag) === "en") ?? tags[0];
 }
 
-/** Returns a note of the daemon in the language `wanted`. If the note lacks this language, languageIn() chooses another. */
-export function inLanguage({ id, position, normal, texts, picture, view, light, section }: StoredNote, wanted: string): Annotation {
+/** Returns the light of a note for the light that the viewer shows. Null stands for the museum's light. */
+export function lightOf(shown: PresentedLight | null): string {
+  return shown === null ? "museum" : shown.preset === "raking" ? `raking,${shown.angle}` : shown.preset;
+}
+
+/**
+ * Returns a note of the daemon in the language `wanted`, or in another if it lacks this one. Addresses of pictures and sounds
+ * are relative to `api`, the URL of the model in the daemon's API, because another site may embed the viewer.
+ */
+export function inLanguage({ id, position, normal, texts, view, light, section, ...media }: StoredNote, wanted: string, api: string | undefined): Annotation {
   const language = languageIn(texts, wanted), words = language === undefined ? { title: "" } : (texts[language] as NoteText);
+  const picture = absolute(media.picture, api), audio = absolute(words.audio, api);
   return {
     id, position, normal, title: words.title, text: words.text ?? "",
-    ...(words.alt && { alt: words.alt }), ...(words.audio && { audio: words.audio }), ...(language && { language }),
+    ...(words.alt && { alt: words.alt }), ...(audio && { audio }), ...(language && { language }),
     ...(picture && { picture }), ...(view && { view }), ...(light !== undefined && { light }), ...(section !== undefined && { section }),
   };
+}
+
+function absolute(url: string | undefined, base: string | undefined): string | undefined {
+  try {
+    return url && new URL(url, base).href;
+  } catch {
+    return url; // an operator is still typing the address
+  }
 }

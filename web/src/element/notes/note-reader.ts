@@ -7,9 +7,10 @@ import type { Bench, Tool } from "../tools/bench.ts";
 import type { make as makeElement } from "../tools/dom.ts";
 import type { apiOf as addressOf } from "../tools/links.ts";
 import type { Mark } from "../tools/overlay.ts";
+import type { Light } from "../tools/light.ts";
 import type { pick as pickPoint } from "../tools/pick.ts";
 import type { anglesOf as angles, OrbitView } from "../tools/view.ts";
-import { inLanguage, languageIn, readAnnotations, triple, type Annotation, type NoteView, type StoredNote, type StoredTour, type Triple } from "./annotations.ts";
+import { inLanguage, languageIn, lightOf, readAnnotations, triple, type Annotation, type NoteView, type StoredNote, type StoredTour, type Triple } from "./annotations.ts";
 import { describe } from "./describe.ts";
 import style from "./notes.css?text";
 import { TourPlayer } from "./tour-player.ts";
@@ -23,7 +24,7 @@ export interface NoteKit {
   style(css: string): void;
   /** The container of the notes, in a sheet. */
   content: HTMLElement;
-  light: Tool;
+  light: Tool & Pick<Light, "presented">;
   section: Tool;
   onChosen(): void;
   onFilled(any: boolean): void;
@@ -37,12 +38,16 @@ export interface NoteDocuments {
   tours: StoredTour[];
 }
 
+const kTillPreview = 200; // milliseconds without a change before it is shown
+
 export class NoteReader {
   readonly #list: HTMLOListElement;
   readonly #tours: HTMLElement;
   readonly #player: TourPlayer;
   #notes: Annotation[] = [];
   #marks: Mark[] = [];
+  readonly #places = new Map<Mark, Pick<Annotation, "position" | "normal">>(); // of notes and hotspots, in model coordinates
+  #later: ReturnType<typeof setTimeout> | undefined; // shows a preview
   #hotspots: Mark[] = [];
   #source = ""; // where the notes come from
   #wanted = ""; // the note of a link that was opened before the notes were loaded
@@ -59,8 +64,7 @@ export class NoteReader {
   gather(until: AbortSignal): void {
     this.#pin();
     const { host, stage } = this.bench, file = host.getAttribute("annotations") ?? "";
-    const has = Boolean(stage.mesh.info.presentation?.notes);
-    const api = has ? this.kit.apiOf(new URL(host.getAttribute("src") ?? "", document.baseURI).href) : undefined;
+    const api = stage.mesh.info.presentation?.notes ? this.#api : undefined;
     const source = `${file} ${api ?? ""}`;
     if (source === this.#source) return;
     this.#source = source;
@@ -70,6 +74,7 @@ export class NoteReader {
   /** Removes all notes from the stage. Call this before the stage is disposed of. */
   leave(): void {
     this.#source = "";
+    clearTimeout(this.#later);
     this.#player.end();
     this.#clear(this.#marks);
     this.#clear(this.#hotspots);
@@ -93,10 +98,23 @@ export class NoteReader {
     this.#open();
   }
 
-  /** Replaces the daemon's notes by others, which may not be saved yet. */
-  preview({ notes, tours }: NoteDocuments): void {
+  /** Replaces the daemon's notes by others, which may not be saved yet. Waits until nothing has changed for a moment. */
+  preview(documents: NoteDocuments): void {
     this.#source += " preview"; // ignores a response that arrives later
-    this.#fill(notes.map((note) => inLanguage(note, this.#language)), { notes, tours });
+    clearTimeout(this.#later);
+    this.#later = setTimeout(() => this.#replace(documents), kTillPreview);
+  }
+
+  /** Moves the marks after the presentation of the model has changed. */
+  follow(): void {
+    for (const [mark, { position, normal }] of this.#places) Object.assign(mark, this.#spot(position, normal));
+  }
+
+  /** Fills in other notes. The chosen note stays chosen. */
+  #replace(documents: NoteDocuments): void {
+    const chosen = this.#notes[Number(this.setting) - 1]?.id;
+    this.#fill(documents.notes.map((note) => inLanguage(note, this.#language, this.#api)), documents);
+    if (chosen !== undefined) this.#mark(this.#notes.findIndex(({ id }) => id === chosen));
   }
 
   /** Returns the point and the normal of the surface at a point of the window, in model coordinates. */
@@ -111,14 +129,19 @@ export class NoteReader {
     return { position: this.#inModel(at), normal: rounded(normal.applyQuaternion(stage.mesh.quaternion.clone().invert())) };
   }
 
-  /** The current view, light and section. */
+  /** The present view, light and section. */
   get moment(): Required<Pick<StoredNote, "view" | "light" | "section">> {
     const { stage } = this.bench, { camera, controls: { target } } = stage.parts;
     const offset = camera.position.clone().sub(target), distance = offset.length();
     const zoom = Math.min(100, Math.max(0.1, stage.fittingDistance(target, offset.clone().normalize()) / distance));
     const direction = rounded(offset.divideScalar(distance).applyQuaternion(stage.mesh.quaternion.clone().invert()));
     const view: NoteView = { direction, zoom: Number(zoom.toPrecision(6)), ...(target.lengthSq() > 0 && { target: this.#inModel(target) }) };
-    return { view, light: this.kit.light.setting || "museum", section: this.kit.section.setting ?? "" };
+    return { view, light: lightOf(this.kit.light.presented), section: this.kit.section.setting ?? "" };
+  }
+
+  /** The URL of the model in the daemon's API. Undefined for a file. */
+  get #api(): string | undefined {
+    return this.kit.apiOf(new URL(this.bench.host.getAttribute("src") ?? "", document.baseURI).href);
   }
 
   get #language(): string {
@@ -132,20 +155,21 @@ export class NoteReader {
       if (!answer.ok) throw new Error(`${url}: status ${answer.status}`);
       return answer.json();
     };
-    try {
-      const [own, stored, tours] = await Promise.all([
-        file ? read(file) : [], api ? read(`${api}/notes`, { headers }) : { notes: [] }, api ? read(`${api}/tours`, { headers }) : { tours: [] },
-      ]);
-      if (source !== this.#source) return;
-      const documents = { notes: (stored as NoteDocuments).notes, tours: (tours as NoteDocuments).tours };
-      this.#fill([...documents.notes.map((note) => inLanguage(note, this.#language)), ...readAnnotations(own)], documents);
-    } catch (error) {
-      if (until.aborted || source !== this.#source) return;
-      this.#fill([], { notes: [], tours: [] });
-      this.#list.replaceChildren(this.kit.make("li", {}, this.bench.texts.notesMissing));
-      this.kit.onFilled(true);
-      console.warn(`notes "${source.trim()}": ${(error as Error).message}`);
-    }
+    const ofDaemon = async <Part extends keyof NoteDocuments>(part: Part): Promise<NoteDocuments[Part]> =>
+      api ? ((await read(`${api}/${part}`, { headers })) as NoteDocuments)[part] : [];
+    const inFile = async () => (file ? readAnnotations(await read(file)) : []);
+    const [own, notes, tours] = await Promise.allSettled([inFile(), ofDaemon("notes"), ofDaemon("tours")]);
+    if (until.aborted || source !== this.#source) return;
+    const documents = { notes: valueOf(notes, []), tours: valueOf(tours, []) };
+    this.#fill([...documents.notes.map((note) => inLanguage(note, this.#language, api)), ...valueOf(own, [])], documents);
+    for (const one of [own, notes, tours]) if (one.status === "rejected") this.#miss(source, one.reason as Error);
+  }
+
+  /** Says that one source of notes cannot be loaded. */
+  #miss(source: string, error: Error): void {
+    if (!this.#list.querySelector(".missing")) this.#list.append(this.kit.make("li", { class: "missing" }, this.bench.texts.notesMissing));
+    this.kit.onFilled(true);
+    console.warn(`notes "${source.trim()}": ${error.message}`);
   }
 
   #fill(notes: Annotation[], { tours }: NoteDocuments): void {
@@ -245,10 +269,15 @@ export class NoteReader {
   }
 
   #place(element: HTMLElement, position: Triple, normal: Triple | undefined): Mark {
-    const { mesh } = this.bench.stage;
-    const mark: Mark = { element, point: this.#onStage(position), ...(normal && { normal: new Vector3(...normal).applyQuaternion(mesh.quaternion) }) };
+    const mark: Mark = { element, ...this.#spot(position, normal) };
+    this.#places.set(mark, { position, normal });
     this.bench.overlay.add(mark);
     return mark;
+  }
+
+  #spot(position: Triple, normal: Triple | undefined): Omit<Mark, "element"> {
+    const { mesh } = this.bench.stage;
+    return { point: this.#onStage(position), ...(normal && { normal: new Vector3(...normal).applyQuaternion(mesh.quaternion) }) };
   }
 
   /** Returns where a point in model coordinates is on the stage. */
@@ -264,8 +293,15 @@ export class NoteReader {
   }
 
   #clear(marks: Mark[]): void {
-    for (const mark of marks.splice(0)) this.bench.overlay.remove(mark);
+    for (const mark of marks.splice(0)) {
+      this.#places.delete(mark);
+      this.bench.overlay.remove(mark);
+    }
   }
+}
+
+function valueOf<T>(settled: PromiseSettledResult<T>, otherwise: T): T {
+  return settled.status === "fulfilled" ? settled.value : otherwise;
 }
 
 /** Rounds so that no difference can be seen. */

@@ -15,6 +15,8 @@ export interface TourStep {
   transition?: "fly" | "cut";
 }
 
+const kTillAnnounced = 100; // milliseconds that screen readers need to notice a new live region
+
 export class TourPlayer {
   readonly #panel: HTMLElement;
   readonly #place: HTMLElement;
@@ -23,8 +25,10 @@ export class TourPlayer {
   #steps: TourStep[] = [];
   #at = 0;
   #isPlaying = false;
+  #isSilent = false; // whether the browser refuses to play the sound of the step
+  #waiting = new AbortController(); // ends the wait for a sound
   #timer: ReturnType<typeof setTimeout> | undefined;
-  #before = { light: "", section: "" }; // settings before the tour
+  #before = { light: "", section: "", isTurning: false }; // settings before the tour
   #until = new AbortController(); // ends the listeners of the tour
   #starter: HTMLElement | undefined;
 
@@ -47,7 +51,7 @@ export class TourPlayer {
   start(title: string, steps: TourStep[], starter: HTMLElement): void {
     const { light, section } = this.kit;
     this.end();
-    this.#before = { light: light.setting ?? "", section: section.setting ?? "" };
+    this.#before = { light: light.setting ?? "", section: section.setting ?? "", isTurning: this.bench.stage.isTurning };
     this.#steps = steps;
     this.#at = 0;
     this.#starter = starter;
@@ -55,20 +59,24 @@ export class TourPlayer {
     this.kit.onTour();
     this.bench.view.append(this.#panel);
     this.bench.view.classList.add("touring");
-    const look = ({ target }: Event) => void (this.#panel.contains(target as Node) || (this.#playing = false)); // the visitor looks around
-    this.bench.view.addEventListener("pointerdown", look, { signal: (this.#until = new AbortController()).signal });
+    this.bench.stage.isTurning = false;
+    this.#until = new AbortController();
+    for (const type of ["pointerdown", "wheel", "keydown"] as const)
+      this.bench.view.addEventListener(type, (event) => this.#look(event), { signal: this.#until.signal, passive: true });
     this.#isPlaying = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.#label();
     this.#toggle.focus();
-    this.#present();
+    this.#timer = setTimeout(() => this.#present(), kTillAnnounced);
   }
 
   /** Ends the tour, and restores light and section. */
   end(): void {
-    clearTimeout(this.#timer);
+    this.#halt();
     if (!this.#panel.isConnected) return;
     this.#until.abort();
     this.#panel.remove();
-    this.bench.view.classList.remove("touring");
+    this.bench.view.classList.remove("touring", "playing");
+    this.bench.stage.isTurning = this.#before.isTurning;
     this.#text.replaceChildren();
     for (const name of ["light", "section"] as const) {
       if (this.#before[name]) this.kit[name].setting = this.#before[name];
@@ -90,6 +98,15 @@ export class TourPlayer {
     this.#present(on);
   }
 
+  /** Pauses the tour if the visitor looks around. */
+  #look(event: Event): void {
+    const target = event.target as Node;
+    if (this.#panel.contains(target)) return;
+    if (event.type !== "pointerdown" && !(target instanceof HTMLCanvasElement && this.bench.stage.parts.controls.enabled)) return;
+    if (event instanceof KeyboardEvent && (isModified(event) || ["Tab", "Shift"].includes(event.key))) return;
+    this.#playing = false;
+  }
+
   #step(by: number): void {
     const at = this.#at + by;
     if (at < 0 || at >= this.#steps.length) return;
@@ -97,43 +114,71 @@ export class TourPlayer {
     this.#present();
   }
 
-  /** Shows the current step. If `isNew` is false, the note is shown already, so only updates the buttons and pauses the sound. */
-  #present(isNew = true): void {
-    const { make } = this.kit, { tour } = this.bench.texts, { index, note, transition } = this.#steps[this.#at] as TourStep;
+  /** Ends all waiting for the next step. */
+  #halt(): void {
     clearTimeout(this.#timer);
-    if (isNew) {
+    this.#waiting.abort();
+  }
+
+  /** Shows the present step. If not `isNew`, only the buttons change. */
+  #present(isNew = true): void {
+    const { make } = this.kit, { index, note, transition } = this.#steps[this.#at] as TourStep;
+    this.#halt();
+    if (isNew || !this.#text.hasChildNodes()) {
       this.#text.replaceChildren(make("p", { class: "title" }, note.title), ...describe(make, note));
       this.#text.lang = note.language ?? "";
       if (!note.language) this.#text.removeAttribute("lang");
       this.show(index, transition === "cut");
       this.bench.host.dispatchEvent(new CustomEvent("tour-step", { detail: { step: this.#at + 1, steps: this.#steps.length } }));
       const sound = this.#text.querySelector("audio");
-      if (sound && this.#isPlaying) void sound.play().catch(() => undefined); // browsers may refuse to play
+      this.#isSilent = false;
+      if (sound && this.#isPlaying) void sound.play().catch(() => void (this.#isSilent ||= sound === this.#text.querySelector("audio")));
     } else this.#text.querySelector("audio")?.pause();
+    this.#label();
+    if (this.#isPlaying) this.#wait();
+  }
+
+  #label(): void {
+    const { tour } = this.bench.texts;
+    this.bench.view.classList.toggle("playing", this.#isPlaying);
     const label = this.#isPlaying ? tour.pause : tour.play;
     this.#toggle.title = this.#toggle.ariaLabel = label;
     (this.#toggle.firstChild as HTMLElement).textContent = this.#isPlaying ? "❚❚" : "▶";
     this.#place.textContent = tour.stop(this.#at + 1, this.#steps.length);
-    if (this.#isPlaying) this.#wait();
   }
 
-  /** Waits until the note is read, and until its sound has ended, then continues. */
+  /** Waits until the note is read, and until its sound has ended, has failed or is paused, then continues. */
   #wait(): void {
     const { note, seconds } = this.#steps[this.#at] as TourStep, sound = this.#text.querySelector("audio");
+    const { signal } = (this.#waiting = new AbortController());
     const go = () => {
-      if (sound && !sound.paused && !sound.ended) return sound.addEventListener("ended", go, { once: true });
-      if (!this.#isPlaying || !this.#text.contains(sound ?? this.#text)) return;
-      if (this.#at < this.#steps.length - 1) this.#step(1);
-      else this.#playing = false;
+      this.#halt();
+      if (this.#at < this.#steps.length - 1) return this.#step(1);
+      this.#playing = false;
+      this.bench.view.dispatchEvent(new Event("tour-rest")); // from now on, the viewer may be idle
     };
-    this.#timer = setTimeout(go, 1000 * (seconds ?? secondsToRead(note.title, note.text)));
+    const read = () => {
+      if (!sound || !isSounding(sound) || this.#isSilent) return go();
+      for (const type of ["ended", "error", "pause"]) sound.addEventListener(type, go, { signal });
+    };
+    this.#timer = setTimeout(read, 1000 * (seconds ?? secondsToRead(note.title, note.text)));
   }
 
   #press(event: KeyboardEvent): void {
     const act = { ArrowRight: () => this.#step(1), ArrowLeft: () => this.#step(-1), Escape: () => this.#leave() }[event.key];
-    if (!act || (event.target as Element).matches("audio")) return;
+    if (!act || isModified(event) || (event.target as Element).matches("audio")) return;
     event.preventDefault();
     event.stopPropagation(); // without this, Escape would also close a dialog of the page
     act();
   }
+}
+
+/** Whether a sound is playing. A sound that fails to load is never paused. */
+export function isSounding({ paused, ended, error }: Pick<HTMLMediaElement, "paused" | "ended" | "error">): boolean {
+  return !paused && !ended && error === null;
+}
+
+/** Whether a key is a shortcut of the browser or the system. */
+function isModified({ altKey, ctrlKey, metaKey }: KeyboardEvent): boolean {
+  return altKey || ctrlKey || metaKey;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out whether there are notes on the model, and loads the code that shows them (notes/note-reader.ts). Notes come from the
 // daemon, from the page's hotspots (slot="hotspot-…"), and from the file that the attribute `annotations` names.
-import type { NoteReader } from "../notes/note-reader.ts";
+import type { NoteKit, NoteReader } from "../notes/note-reader.ts";
 import type { Bench, Tool } from "./bench.ts";
 import { make } from "./dom.ts";
 import { apiOf } from "./links.ts";
@@ -23,7 +23,7 @@ export class Notes implements Tool {
   #wanted = ""; // the setting that was chosen before the code was loaded
 
   /** Notes may choose the settings of the tools `moment`. */
-  constructor(private readonly bench: Bench, private readonly style: (css: string) => void, private readonly moment: { light: Tool; section: Tool }) {}
+  constructor(private readonly bench: Bench, private readonly style: (css: string) => void, private readonly moment: Pick<NoteKit, "light" | "section">) {}
 
   attach(until: AbortSignal): void {
     const watch = new MutationObserver(() => this.#gather(until));
@@ -46,6 +46,11 @@ export class Notes implements Tool {
   set setting(text: string) {
     this.#wanted = text;
     if (this.#reader) this.#reader.setting = text;
+  }
+
+  /** Moves the marks after the presentation of the model has changed. */
+  follow(): void {
+    this.#reader?.follow();
   }
 
   /** Loads the code that shows notes. If that fails, a later call tries again. */

@@ -17,6 +17,7 @@ export class Presenter {
   preview(placement: Pick<Presentation, "rotation" | "scale">): void {
     const { stage } = this.bench, { camera, controls } = stage.parts, ratio = placement.scale / stage.mesh.scale.x;
     stage.mesh.present(placement);
+    this.notes.follow();
     controls.target.multiplyScalar(ratio);
     camera.position.multiplyScalar(ratio);
     for (const limit of ["minDistance", "maxDistance"] as const) controls[limit] *= ratio;
@@ -31,7 +32,7 @@ export class Presenter {
     this.bench.stage.show(view);
   }
 
-  /** The view and the light of the moment. */
+  /** The present view and light. */
   get moment(): Pick<Presentation, "view" | "light"> {
     const { stage } = this.bench, { camera, controls: { target } } = stage.parts, { azimuth, elevation, distance } = this.bench.orbit.view;
     const fitting = stage.fittingDistance(target, camera.position.clone().sub(target).normalize());

@@ -77,7 +77,9 @@ export class Toolbox implements Bench {
     this.#until = new AbortController();
     this.#bar.inert = false;
     stage.onDraw = () => this.overlay.update(stage.parts.camera);
-    this.view.addEventListener("pointerdown", () => this.orbit.stop(), { signal: this.#until.signal });
+    // The buttons of a tour do not take hold of the model.
+    const hold = ({ target }: Event) => void ((target as Element).closest(".tour-panel") || this.orbit.stop());
+    this.view.addEventListener("pointerdown", hold, { signal: this.#until.signal });
     for (const tool of this.#tools) tool.attach?.(this.#until.signal);
     void stage.draw();
   }
