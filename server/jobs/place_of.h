@@ -27,7 +27,7 @@ inline DiskLimits disk_limits_of(const Settings& settings) {
   return {.quota = settings.quota_bytes, .reserve = settings.disk_reserve_bytes};
 }
 
-// Returns how many bytes more the disk of the data folder can hold beside disk-reserve.
+// Returns how many more bytes the disk of the data folder can hold beside disk-reserve.
 inline std::uint64_t room_of(const Settings& settings) {
   const std::uint64_t free = free_space(settings.data);
   return free - std::min(free, settings.disk_reserve_bytes);

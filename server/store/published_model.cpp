@@ -180,7 +180,7 @@ Expected<void> PublishedModels::forget_if_changed() {
 
 Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   std::uint64_t refreshed = 0, before = 0;
-  std::vector<ModelPointer> held;
+  std::vector<RecordVersion> held;  // not pointers, which reserve_copy() would take for visitors
   {
     const std::shared_lock lock(mutex_);
     if (is_fresh(now, staleness_ / 2)) return {};
@@ -192,7 +192,7 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   if (*revision != before) {
     const std::shared_lock lock(mutex_);
     for (const auto& [scope, entry] : models_)
-      held.push_back(entry.model);
+      held.push_back(RecordVersion::of(entry.model->record()));
   }
   const auto kept = unchanged(held);
   if (!kept) return tl::unexpected(kept.error());
@@ -203,23 +203,22 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   }
   if (*revision == revision_) return {};
   revision_ = *revision;
-  // Also drops a model that was opened during the check, because it may be older than the new
-  // revision.
-  for (auto it = models_.begin(); it != models_.end();)
-    it = std::ranges::count(*kept, it->second.model.get()) > 0 ? std::next(it) : drop(it);
+  // Also drops a model that was opened during the check, if its version was not checked.
+  for (auto it = models_.begin(); it != models_.end();) {
+    const auto version = RecordVersion::of(it->second.model->record());
+    it = std::ranges::count(*kept, version) > 0 ? std::next(it) : drop(it);
+  }
   return {};
 }
 
-// Returns the models whose records in the catalogue have not changed.
-Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
-    const std::vector<ModelPointer>& models) {
-  std::vector<const PublishedModel*> kept;
-  for (const ModelPointer& model : models) {
-    const auto record = catalogue_.find(model->record().id);
+// Returns those versions that are the current ones in the catalogue.
+Expected<std::vector<PublishedModels::RecordVersion>> PublishedModels::unchanged(
+    const std::vector<RecordVersion>& known) {
+  std::vector<RecordVersion> kept;
+  for (const RecordVersion& version : known) {
+    const auto record = catalogue_.find(version.id);
     if (!record) return tl::unexpected(record.error());
-    const bool is_same = *record && (*record)->version == model->record().version &&
-                         (*record)->notes == model->record().notes;
-    if (is_same) kept.push_back(model.get());
+    if (*record && RecordVersion::of(**record) == version) kept.push_back(version);
   }
   return kept;
 }
@@ -325,29 +324,32 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open_file(ModelRecord r
   return model;
 }
 
-// Adds the file to `copying_`. Drops models until the disk has room for the copy; if all models
-// together would free too little, keeps them and fails. A model being sent frees its room later.
-// Copies in progress count in full, because it is unknown how much of them is on the disk.
+// Adds the file to `copying_`. If the disk lacks room for the copy, drops models that nobody else
+// holds; if together they would free too little, keeps them and fails. A model being sent would
+// free its room only later, so it stays. Copies in progress count in full, because it is unknown
+// how much of them is on the disk. File systems report freed room only after seconds, so it is
+// added up.
 Expected<void> PublishedModels::reserve_copy(const ModelRecord& record) {
   const std::unique_lock lock(mutex_);
-  std::uint64_t droppable = 0;
-  for (const auto& [scope, held] : models_)
-    droppable += held.model->file().size();
   const std::uint64_t needed = copying_ + record.file_bytes, room = room_();
   const std::uint64_t lacking = needed - std::min(needed, room);
-  std::uint64_t freed = 0;  // file systems report freed room only after seconds, so it is added up
-  while (lacking > freed && lacking - freed <= droppable) {
-    const ModelPointer dropped = drop_least_recently_used();
-    droppable -= dropped->file().size();
-    if (dropped.use_count() == 1) freed += dropped->file().size();
+  std::uint64_t droppable = 0, freed = 0;
+  std::vector<CachedModels::iterator> unused;
+  for (auto it = models_.begin(); lacking > 0 && it != models_.end(); ++it) {
+    if (it->second.model.use_count() > it->second.pointers) continue;
+    unused.push_back(it);
+    droppable += it->second.model->file().size();
   }
-  if (lacking > freed) {
+  if (lacking > droppable) {
     return fail(ErrorCode::kIo,
                 fmt::format("model {} cannot be opened: copies of objects need {} bytes, but the "
                             "disk of the data folder has room for {} beside disk-reserve; free "
                             "some space, or lower disk-reserve",
-                            record.id.to_string(), needed, room + freed));
+                            record.id.to_string(), needed, room));
   }
+  std::ranges::sort(unused, {}, [](auto held) { return held->second.model->asked_.load(); });
+  for (auto next = unused.begin(); freed < lacking; drop(*next++))
+    freed += (*next)->second.model->file().size();
   copying_ += record.file_bytes;
   return {};
 }
@@ -419,7 +421,7 @@ void PublishedModels::remember(const Scope& scope, const ModelPointer& model,
       const std::shared_lock lock(mutex_);
       revision = revision_;
     }
-    const auto kept = unchanged({model});
+    const auto kept = unchanged({RecordVersion::of(model->record())});
     if (!kept || kept->empty()) return;
   }
 }
@@ -436,16 +438,17 @@ bool PublishedModels::try_to_remember(const Scope& scope, const ModelPointer& mo
   if (bytes > max_bytes_) too_large_.insert(file);
   if (bytes > max_bytes_ || models_.contains(scope)) return true;
   model->asked_ = Clock::now().time_since_epoch().count();
-  models_[scope] = {model, bytes};
+  CachedModel& held = models_[scope] = {model, bytes};
   bytes_ += bytes;
-  if (!scope.is_whole) index_chunks(model);
+  if (!scope.is_whole) index_chunks(held);
   make_room();
   return true;
 }
 
-void PublishedModels::index_chunks(const ModelPointer& model) {
-  for_each_block(model->manifest(), [&](const FileBlock& block) {
-    chunks_.insert({block.sha256, {model, {block.offset, block.length}}});
+void PublishedModels::index_chunks(CachedModel& held) {
+  for_each_block(held.model->manifest(), [&](const FileBlock& block) {
+    chunks_.insert({block.sha256, {held.model, {block.offset, block.length}}});
+    ++held.pointers;
   });
 }
 
@@ -475,13 +478,10 @@ PublishedModels::CachedModels::iterator PublishedModels::drop(CachedModels::iter
   return models_.erase(held);
 }
 
-PublishedModels::ModelPointer PublishedModels::drop_least_recently_used() {
-  const auto oldest = std::ranges::min_element(models_, {}, [](const auto& entry) {
+void PublishedModels::drop_least_recently_used() {
+  drop(std::ranges::min_element(models_, {}, [](const auto& entry) {
     return entry.second.model->asked_.load(std::memory_order_relaxed);
-  });
-  ModelPointer model = oldest->second.model;
-  drop(oldest);
-  return model;
+  }));
 }
 
 void PublishedModels::make_room() {

@@ -112,9 +112,10 @@ class PublishedModels {
   using Post = std::function<void(std::function<void()> task)>;
   void refresh_by(Post post) { post_ = std::move(post); }
 
-  // Sets the function that returns how many bytes more the disk can hold. If opening a model copies
-  // its file to the disk, least recently used models are then dropped until the copy fits. If it
-  // still does not fit, opening fails with kIo. Call this before the first request.
+  // Sets the function that returns how many more bytes the disk can hold. If opening a model copies
+  // its file to the disk, models that nobody else holds are then dropped until the copy fits, the
+  // least recently used first. If dropping them cannot make enough room, opening fails with kIo and
+  // drops none. Call this before the first request.
   using Room = std::function<std::uint64_t()>;
   void limit_copies_to(Room room) { room_ = std::move(room); }
 
@@ -186,8 +187,18 @@ class PublishedModels {
   struct CachedModel {
     ModelPointer model;
     std::uint64_t bytes = 0;
+    long pointers = 1;  // the cache's own pointers to the model: this one, and those in chunks_
   };
   using CachedModels = std::unordered_map<Scope, CachedModel, HashOfScope>;
+  // Identifies what a record contained when it was read.
+  struct RecordVersion {
+    static RecordVersion of(const ModelRecord& record) {
+      return {record.id, record.version, record.notes};
+    }
+    bool operator==(const RecordVersion&) const = default;
+    ModelId id;
+    std::uint64_t version = 0, notes = 0;
+  };
   // A model that is being opened, or that could not be opened. Its result is outdated for a caller
   // that knows of a later revision or refresh().
   struct Opening {
@@ -206,7 +217,7 @@ class PublishedModels {
   bool may_use_cache(Clock::time_point now) const;  // the caller holds the lock
   Expected<void> forget_if_changed();
   Expected<void> ask_for_changes(Clock::time_point now);
-  Expected<std::vector<const PublishedModel*>> unchanged(const std::vector<ModelPointer>& models);
+  Expected<std::vector<RecordVersion>> unchanged(const std::vector<RecordVersion>& known);
   ModelPointer cached(const Scope& scope);
   Expected<ModelPointer> find(const Scope& scope);
   Expected<ModelPointer> load(const Scope& scope);
@@ -221,9 +232,9 @@ class PublishedModels {
   void withdraw(const Sha256& file);                         // the caller holds the lock
   void remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
   bool try_to_remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
-  void index_chunks(const ModelPointer& model);               // the caller holds the lock
+  void index_chunks(CachedModel& held);                       // the caller holds the lock
   CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds the lock
-  ModelPointer drop_least_recently_used();                    // the caller holds the lock
+  void drop_least_recently_used();                            // the caller holds the lock
   void make_room();                                           // the caller holds the lock
 
   const ObjectStore& store_;

@@ -21,7 +21,7 @@
 namespace vitrine::server {
 namespace {
 
-// A store that counts opened objects, and can delay opening or let it fail.
+// A store that counts opened objects, and can delay opening and checks, or let opening fail.
 class WatchedStore final : public test::StoreBefore {
  public:
   using StoreBefore::StoreBefore;
@@ -35,8 +35,12 @@ class WatchedStore final : public test::StoreBefore {
 
   mutable std::atomic<int> opened{0};
   bool keeps_copies() const override { return copies; }
+  Expected<ObjectState> check(const Sha256& name, const OnPiece& on_piece) const override {
+    before_checking();
+    return before_.check(name, on_piece);
+  }
 
-  std::function<void()> before_opening = [] {};
+  std::function<void()> before_opening = [] {}, before_checking = [] {};
   bool is_away = false, copies = false;
 };
 
@@ -209,7 +213,7 @@ TEST_F(PublishedModelsTest, AModelThatIsHiddenWhileItIsReplacedIsReplacedAndHidd
   const ModelId id = add("one");
   const test::TinyPmesh newer = test::tiny_pmesh("another base", "another");
   bool is_first = true;
-  store_.before_opening = [&] {
+  store_.before_checking = [&] {
     if (!std::exchange(is_first, false)) return;
     ASSERT_TRUE(catalogue_->set_state(id, ModelState::kDraft));
   };
@@ -406,8 +410,50 @@ TEST_F(LimitedCopiesTest, AModelThatIsBeingSentMakesNoRoom) {
   const auto sent = models_.find(one_).value();
   room_ = size_of(two_) - 1;
   EXPECT_FALSE(models_.find(two_));
+  models_.misses = 0;
+  EXPECT_EQ(get(one_), sent.get());
+  EXPECT_EQ(models_.misses, 0u) << "it stays open for other visitors";
   room_ = size_of(two_);
   EXPECT_TRUE(models_.find(two_));
+}
+
+TEST_F(LimitedCopiesTest, AModelThatNobodyHoldsMakesRoomBeforeOneThatIsBeingSent) {
+  const ModelId big = add("the big one");
+  const auto sent = models_.find(one_).value();
+  get(two_);
+  room_ = size_of(big) - 1;
+  EXPECT_TRUE(get(big));
+  room_ = UINT64_MAX;
+  models_.misses = 0;
+  EXPECT_EQ(get(one_), sent.get());
+  EXPECT_EQ(models_.misses, 0u);
+  get(two_);
+  EXPECT_EQ(models_.misses, 1u);
+}
+
+// A catalogue that calls a function once, before it looks up a model.
+class InterruptedCatalogue final : public test::CatalogueBefore {
+ public:
+  using CatalogueBefore::CatalogueBefore;
+  Expected<std::optional<ModelRecord>> find(const ModelId& id) override {
+    if (const auto interrupt = std::exchange(before_finding, nullptr)) interrupt();
+    return before_.find(id);
+  }
+
+  std::function<void()> before_finding;
+};
+
+TEST_F(LimitedCopiesTest, AModelThatIsCheckedForChangesMakesRoom) {
+  InterruptedCatalogue catalogue(*catalogue_);
+  PublishedModels models(store_, catalogue, std::chrono::milliseconds(0));
+  models.limit_copies_to([this] { return room_; });
+  ASSERT_TRUE(models.find(one_));
+  add("a change of the catalogue");
+  room_ = size_of(two_) - 1;
+  bool is_open = false;
+  catalogue.before_finding = [&] { is_open = models.find(two_).has_value(); };
+  ASSERT_TRUE(models.revision());
+  EXPECT_TRUE(is_open);
 }
 
 TEST_F(LimitedCopiesTest, CopiesInProgressCount) {
