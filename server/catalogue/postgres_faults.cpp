@@ -8,14 +8,15 @@
 namespace vitrine::server::postgres {
 namespace {
 
-constexpr const char* kTables[] = {"model", "chunk",   "job",      "scan", "idempotency",
-                                   "token", "scanner", "revision", "visit"};
+constexpr const char* kTables[] = {"model", "chunk",   "job",      "scan",  "idempotency",
+                                   "token", "scanner", "revision", "visit", "annotation"};
 
 struct Reference {
   const char *table, *column, *target;
 };
 constexpr Reference kReferences[] = {{"chunk", "model", "model"},
                                      {"visit", "model", "model"},
+                                     {"annotation", "model", "model"},
                                      {"scan", "job", "job"},
                                      {"idempotency", "job", "job"}};
 
@@ -28,7 +29,7 @@ constexpr const char* kCheckIndices =
     "CROSS JOIN LATERAL bt_index_check(i.indexrelid) checked "
     "WHERE a.amname = 'btree' AND t.relnamespace = current_schema()::regnamespace "
     "AND t.relname IN ('model', 'chunk', 'job', 'scan', 'idempotency', 'token', 'scanner', "
-    "'visit') "
+    "'visit', 'annotation') "
     "HAVING count(*) < 0";
 
 class FaultFinder {

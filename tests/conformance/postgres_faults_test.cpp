@@ -14,6 +14,7 @@
 namespace vitrine::test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -46,13 +47,28 @@ TEST_F(PostgresFaults, IndicesAreCheckedIfTheServerCanDoSo) {
               ElementsAre("an index: a torn page"));
 }
 
+TEST_F(PostgresFaults, IndicesOfNotesAreChecked) {
+  EXPECT_THAT(faults_after("CREATE FUNCTION bt_index_check(index regclass) RETURNS void LANGUAGE "
+                           "plpgsql AS 'BEGIN IF index = ''annotation_pkey''::regclass THEN "
+                           "RAISE ''a torn page''; END IF; END'"),
+              ElementsAre("an index: a torn page"));
+}
+
 TEST_F(PostgresFaults, ARowThatRefersToNoRowIsOne) {
   EXPECT_THAT(faults_after("SET session_replication_role = replica; DELETE FROM model"),
               ElementsAre("the table chunk: a row refers to a row that is missing from model"));
 }
 
+TEST_F(PostgresFaults, ANoteOfAMissingModelIsOne) {
+  EXPECT_THAT(faults_after("SET session_replication_role = replica; "
+                           "INSERT INTO annotation VALUES ('x', 0, 1, 1, '[]')"),
+              ElementsAre("the table annotation: a row refers to a row that is missing from "
+                          "model"));
+}
+
 TEST_F(PostgresFaults, ATableThatCannotBeReadIsOne) {
   EXPECT_THAT(faults_after("DROP TABLE scanner"), ElementsAre(HasSubstr("the table scanner: ")));
+  EXPECT_THAT(faults_after("DROP TABLE annotation"), Contains(HasSubstr("the table annotation: ")));
 }
 
 }  // namespace

@@ -78,5 +78,17 @@ TEST_F(SqliteFaults, ARowThatRefersToNoRowIsOne) {
                                     "from model"));
 }
 
+TEST_F(SqliteFaults, ANoteOfAMissingModelIsOne) {
+  sqlite::SqliteHandle(file_.string())
+      .run("PRAGMA foreign_keys = OFF; INSERT INTO annotation VALUES (x'01', 0, 1, 1, '[]')");
+  EXPECT_THAT(faults(), ElementsAre("a row of the table annotation refers to a row that is "
+                                    "missing from model"));
+}
+
+TEST_F(SqliteFaults, AMissingIndexOfNotesIsOne) {
+  sqlite::SqliteHandle(file_.string()).run("DROP INDEX annotation_guard");
+  EXPECT_THAT(faults(), ElementsAre("the index annotation_guard is missing or changed"));
+}
+
 }  // namespace
 }  // namespace vitrine::server
