@@ -2,6 +2,7 @@
 #include "server/backup/migrate.h"
 
 #include <map>
+#include <set>
 
 #include "server/catalogue/copy_catalogue.h"
 
@@ -32,25 +33,53 @@ Expected<ObjectState> copy_file(const ObjectStore& from, ObjectStore& to, const 
   return put ? Expected<ObjectState>(ObjectState::kIntact) : tl::unexpected(put.error());
 }
 
-// Copies the files that are not in `done` yet, and adds them to `done`. Lists files that are not
-// intact in the report.
+bool read_on(std::uint64_t) {
+  return true;
+}
+
+// Copies the files that are not in `done` yet, and adds them to `done`. Lists files in the report
+// of which neither side has an intact copy. Does not add files to `done` that only the destination
+// has intact: its garbage collection may remove them until both sides are locked.
 Expected<void> copy_files(Installation& from, Installation& to, MigrationReport& report,
-                          FilesByHash& done, const MigrationProgress& progress) {
+                          std::set<Sha256>& done, const MigrationProgress& progress) {
   const auto files = named_files(from, report);
   if (!files) return tl::unexpected(files.error());
+  report.files = files->size();
+  report.bytes = 0;
   report.damaged.clear();
   for (const auto& [name, file] : *files) {
+    report.bytes += file.bytes;
     if (done.contains(name)) continue;
     const auto state = copy_file(*from.store, *to.store, file);
     if (!state) return tl::unexpected(state.error());
-    if (*state != ObjectState::kIntact) {
-      report.damaged.push_back({file, *state});
+    if (*state == ObjectState::kIntact) {
+      done.insert(name);
+      progress(done.size(), files->size());
       continue;
     }
-    done.emplace(name, file);
-    progress(done.size(), files->size());
+    const auto there = to.store->check(name, read_on);
+    if (!there) return tl::unexpected(there.error());
+    if (*there == ObjectState::kIntact) continue;
+    report.damaged.push_back({file, *state});
+    report.bytes -= file.bytes;
   }
+  report.files -= report.damaged.size();
   return {};
+}
+
+// Checks that the destination has room for the files. If it has not, reads all of them, because
+// those that are damaged or missing are not copied and need no room.
+Expected<void> check_room(Installation& from, const Installation& to, const StorageLimits& limits) {
+  const auto files = distinct_files(*from.catalogue);
+  if (!files) return tl::unexpected(files.error());
+  auto fits = check_limits(to, *files, limits);
+  if (fits || fits.error().code != ErrorCode::kLimit) return fits;
+  std::vector<NamedFile> intact;
+  const auto keep = [&](const NamedFile& file, ObjectState state) {
+    if (state == ObjectState::kIntact) intact.push_back(file);
+  };
+  if (auto read = scrub(*from.store, *files, read_on, keep); !read) return read;
+  return intact.size() == files->size() ? fits : check_limits(to, intact, limits);
 }
 
 bool are_same_folder(const Installation& a, const Installation& b) {
@@ -76,11 +105,9 @@ Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress, const StorageLimits& limits) {
   if (are_same(from, to))
     return fail(ErrorCode::kState, "source and destination are the same; name another destination");
-  const auto files = distinct_files(*from.catalogue);
-  if (!files) return tl::unexpected(files.error());
-  if (auto fits = check_limits(to, *files, limits); !fits) return tl::unexpected(fits.error());
+  if (auto fits = check_room(from, to, limits); !fits) return tl::unexpected(fits.error());
   MigrationReport report;
-  FilesByHash done;
+  std::set<Sha256> done;
   if (auto copied = copy_files(from, to, report, done, progress); !copied)
     return tl::unexpected(copied.error());
   const auto locked = from.store->lock();
@@ -91,9 +118,6 @@ Expected<MigrationReport> migrate(Installation& from, Installation& to,
     return tl::unexpected(copied.error());
   if (auto copied = copy_catalogue(*from.database, *to.database); !copied)
     return tl::unexpected(copied.error());
-  report.files = done.size();
-  for (const auto& [name, file] : done)
-    report.bytes += file.bytes;
   return report;
 }
 

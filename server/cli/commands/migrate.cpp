@@ -54,7 +54,7 @@ CommandOutcome migrate_installation(const Arguments& arguments) {
   if (!shown || done->damaged.empty()) return shown;
   return failed(
       fmt::format("damaged files that the destination lacks: {}; put them back with 'vitrine "
-                  "repair --data {}'",
+                  "repair --data {} --backup FILE'",
                   done->damaged.size(), arguments.text("--to")));
 }
 

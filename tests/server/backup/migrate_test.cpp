@@ -66,6 +66,31 @@ TEST_F(MigrateFolder, DamagedAndMissingFilesAreListedAndTheOthersAreCopied) {
   EXPECT_TRUE(scrub(*to_.store, *to_.catalogue)->damaged.empty());
 }
 
+TEST_F(MigrateFolder, FilesThatOnlyTheDestinationHasIntactAreNotListed) {
+  const Sha256 damaged = add("Damaged"), lost = add("Lost");
+  ASSERT_TRUE(run());
+  damage_object(folder_.path() / "from", damaged);
+  ASSERT_TRUE(from_.store->remove(lost));
+  from_ = open_installation({.folder = folder_.path() / "from"}).value();  // it has hashed no file
+  const auto done = run();
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_TRUE(done->damaged.empty());
+  EXPECT_EQ(done->files, 2u);
+  EXPECT_GT(done->bytes, 0u);
+  damage_object(folder_.path() / "to", damaged);
+  EXPECT_EQ(run()->damaged.size(), 1u);
+}
+
+TEST_F(MigrateFolder, DamagedAndMissingFilesNeedNoRoom) {
+  const Sha256 damaged = add("Damaged"), lost = add("Lost");
+  damage_object(folder_.path() / "from", damaged);
+  ASSERT_TRUE(from_.store->remove(lost));
+  from_ = open_installation({.folder = folder_.path() / "from"}).value();  // it has hashed no file
+  const auto done = run({.disk = {.quota = 1, .reserve = UINT64_MAX}, .uploads = {}});
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(done->damaged.size(), 2u);
+}
+
 TEST_F(MigrateFolder, FilesBeyondTheReserveOfTheDestinationAreRefusedBeforeTheFirstIsCopied) {
   add("One");
   add("Two");

@@ -91,7 +91,7 @@ TEST_F(VitrineCommand, AMigrationListsDamagedFilesAndCopiesTheRest) {
   const auto moved = vitrine({"migrate", "--from", data, "--to", to});
   expect_fault({moved.exit_code, "", moved.errors}, 1);
   EXPECT_THAT(moved.output, ::testing::HasSubstr("object " + damaged));
-  EXPECT_THAT(moved.errors, ::testing::HasSubstr("vitrine repair --data " + to));
+  EXPECT_THAT(moved.errors, ::testing::HasSubstr("vitrine repair --data " + to + " --backup FILE"));
   EXPECT_THAT(moved.output, ::testing::HasSubstr("1 models, 0 files, 0 bytes"));
 }
 
