@@ -78,8 +78,8 @@ Expected<bool> S3Store::put(const Sha256& name, std::span<const std::uint8_t> by
   const auto before = size_of(name);
   if (!before) return tl::unexpected(before.error());
   if (*before == bytes.size()) {
-    const auto held = open(name);  // null or an error if the object is missing or damaged
-    if (held && *held != nullptr) {
+    const auto state = check(name, [](std::uint64_t) { return true; });
+    if (state && *state == ObjectState::kIntact) {
       auto begun = begin_grace(name);
       return begun ? Expected<bool>(false) : tl::unexpected(begun.error());
     }

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "server/store/s3_answers.h"
 #include "server/store/s3_client.h"
 #include "server/store/s3_store.h"
@@ -95,6 +97,17 @@ TEST_F(S3Faults, ALargeObjectGoesInPartsAndComesBackWhole) {
   EXPECT_THAT(head.field("etag"), HasSubstr("-3"));  // the object has three parts
   EXPECT_EQ(store->open(sha256(bytes)).value()->read(0, bytes.size()).value(), bytes);
   EXPECT_FALSE(store->put(sha256(bytes), bytes).value());
+}
+
+TEST_F(S3Faults, PuttingAnExistingObjectAgainMakesNoLocalCopy) {
+  const auto bytes = many_bytes(1'000);
+  const auto store = open();
+  ASSERT_TRUE(store->put(sha256(bytes), bytes).value());
+  std::filesystem::remove_all(folder_.path());  // no copy can be made
+  EXPECT_FALSE(store->open(sha256(bytes)));
+  const auto again = store->put(sha256(bytes), bytes);
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(*again) << "it existed undamaged";
 }
 
 TEST_F(S3Faults, AnAbandonedUploadIsSweptAfterItsGracePeriod) {
