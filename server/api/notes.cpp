@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves and changes the notes on a model's surface and the tours through them. Whoever may see a
-// model may see its notes. Also serves the notes as IIIF annotations, to which the model's IIIF
-// manifests refer.
+// Serves and changes the notes on a model's surface and the tours through them. A client that may
+// see a model may see its notes. Also serves the notes as IIIF annotations, to which the model's
+// IIIF manifests refer.
 #include "server/metadata/notes.h"
 
 #include <nlohmann/json.hpp>
@@ -38,18 +38,23 @@ Response show_document(const NoteDocument& document, const Request& request, Ser
   });
 }
 
+// Returns the first faults of a body.
 FieldFaults faults_of(const NoteDocument& document, const nlohmann::json& body) {
+  constexpr std::size_t kMost = 100;  // bounds the response to a large body with many faults
   FieldFaults faults;
+  const auto add = [&](const std::string& field, const std::string& expected) {
+    if (faults.size() < kMost) faults.push_back({field, expected});
+  };
   for (const auto& [name, value] : body.items()) {
-    if (name != document.name) faults.push_back({name, fmt::format("only {}", document.name)});
+    if (name != document.name) add(name, fmt::format("only {}", document.name));
   }
   const auto list = body.find(document.name);
   if (list == body.end()) {
-    faults.push_back({document.name, "a list"});
+    add(document.name, "a list");
     return faults;
   }
   document.check(*list, [&](const std::string& field, const std::string& expected) {
-    faults.push_back({document.name + (field.empty() ? "" : '.' + field), expected});
+    add(document.name + (field.empty() ? "" : '.' + field), expected);
   });
   return faults;
 }
@@ -66,22 +71,43 @@ bool is_stale(const std::string& present, const Request& request) {
   return !matches_any({list.data(), list.size()}, entity_tag(present));
 }
 
+Response no_model(const Request& request) {
+  return problem(404, "there is no such model", request.id);
+}
+
+// Returns the response to a PUT that did not store the document because the model was removed, or
+// because another request has changed the document. Returns nullopt if it did the latter, and this
+// request replaces any document.
+std::optional<Response> after_conflict(const ModelId& id, const Request& request,
+                                       Services& services) {
+  const auto model = services.catalogue.find(id);
+  if (!model) return internal_error(model.error(), request, services);
+  if (!*model) return no_model(request);
+  if (request.header.count(beast::http::field::if_match) > 0) return notes_have_changed(request);
+  return std::nullopt;
+}
+
 Response change_document(const NoteDocument& document, const Request& request, Services& services) {
   const auto model = services.catalogue.find(id_in<ModelId>(request));
   if (!model) return internal_error(model.error(), request, services);
-  if (!*model) return problem(404, "there is no such model", request.id);
-  const auto before = services.notes.find((*model)->id, document.kind);
+  if (!*model) return no_model(request);
+  const ModelId& id = (*model)->id;
+  auto before = services.notes.find(id, document.kind);
   if (!before) return internal_error(before.error(), request, services);
   if (is_stale(document_json(document, *before), request)) return notes_have_changed(request);
   if (const auto faults = faults_of(document, request.body); !faults.empty())
     return invalid(faults, request);
   const nlohmann::json& list = request.body.at(document.name);
-  const NoteSheet sheet{before->version, static_cast<std::uint32_t>(list.size()), list.dump()};
-  if (const auto done = services.notes.put((*model)->id, document.kind, sheet); !done) {
-    const bool is_conditional = request.header.count(beast::http::field::if_match) > 0;
-    const bool is_late = done.error().code == ErrorCode::kState && is_conditional;
-    return is_late ? notes_have_changed(request) : refused(done.error(), request, services);
+  NoteSheet sheet{before->version, static_cast<std::uint32_t>(list.size()), list.dump()};
+  auto done = services.notes.put(id, document.kind, sheet);
+  if (!done && done.error().code == ErrorCode::kState) {
+    if (auto response = after_conflict(id, request, services)) return std::move(*response);
+    before = services.notes.find(id, document.kind);
+    if (!before) return internal_error(before.error(), request, services);
+    sheet.version = before->version;
+    done = services.notes.put(id, document.kind, sheet);
   }
+  if (!done) return refused(done.error(), request, services);
   services.models.refresh();
   return for_caller(revalidated("application/json", document_json(document, sheet)));
 }
@@ -90,7 +116,7 @@ OrderedJson text_body(const std::string& language, const nlohmann::json& text) {
   return {{"type", "TextualBody"},
           {"language", language},
           {"format", "text/plain"},
-          {"value", text.contains("text") ? text["text"] : text["title"]}};
+          {"value", text.contains("text") ? text.at("text") : text.at("title")}};
 }
 
 OrderedJson media_body(std::string url, const std::string& origin, const char* type) {
@@ -98,26 +124,27 @@ OrderedJson media_body(std::string url, const std::string& origin, const char* t
   return {{"id", std::move(url)}, {"type", type}};
 }
 
+// This and the next two functions throw nlohmann::json::exception if the stored note is damaged.
 // Returns the bodies of the annotation of a note: its texts, its sounds and its picture.
 OrderedJson bodies_of(const nlohmann::json& note, const std::string& origin) {
   OrderedJson all = OrderedJson::array();
-  for (const auto& [language, text] : note["texts"].items()) {
+  for (const auto& [language, text] : note.at("texts").items()) {
     all.push_back(text_body(language, text));
     if (!text.contains("audio")) continue;
-    OrderedJson sound = media_body(text["audio"], origin, "Sound");
+    OrderedJson sound = media_body(text.at("audio"), origin, "Sound");
     sound["language"] = language;
     all.push_back(std::move(sound));
   }
-  if (note.contains("picture")) all.push_back(media_body(note["picture"], origin, "Image"));
+  if (note.contains("picture")) all.push_back(media_body(note.at("picture"), origin, "Image"));
   return all;
 }
 
 OrderedJson annotation_of(const nlohmann::json& note, const std::string& self,
                           const std::string& origin, OrderedJson target) {
   OrderedJson label;
-  for (const auto& [language, text] : note["texts"].items())
-    label[language] = {text["title"]};
-  return {{"id", fmt::format("{}/annotations/{}", self, note["id"].get<std::string>())},
+  for (const auto& [language, text] : note.at("texts").items())
+    label[language] = {text.at("title")};
+  return {{"id", fmt::format("{}/annotations/{}", self, note.at("id").get<std::string>())},
           {"type", "Annotation"},
           {"label", std::move(label)},
           {"motivation", OrderedJson::array({"commenting"})},
@@ -128,9 +155,10 @@ OrderedJson annotation_of(const nlohmann::json& note, const std::string& self,
 // Returns the place of a note in the IIIF scene, which has the coordinates of the model's GLB.
 OrderedJson place_in_scene(const nlohmann::json& note, const ModelRecord& record,
                            const std::string& self) {
-  const auto& p = note["position"];
+  const auto& p = note.at("position");
   const double metres = metres_per(record.unit).value_or(1);
-  const Vec3 place = PresentationTransform(record.presentation)({p[0], p[1], p[2]}) * metres;
+  const Vec3 place =
+      PresentationTransform(record.presentation)({p.at(0), p.at(1), p.at(2)}) * metres;
   return {{"type", "SpecificResource"},
           {"source", OrderedJson::array({{{"id", self + "/scene"}, {"type", "Scene"}}})},
           {"selector",
@@ -138,12 +166,19 @@ OrderedJson place_in_scene(const nlohmann::json& note, const ModelRecord& record
                {{{"type", "PointSelector"}, {"x", place.x}, {"y", place.y}, {"z", place.z}}})}};
 }
 
-// Returns the stored notes. Returns no notes if the row is damaged.
-nlohmann::json stored_notes(const NoteSheet& sheet) {
-  auto notes = nlohmann::json::parse(sheet.text, nullptr, /*allow_exceptions=*/false);
-  bool is_good = notes.is_array();
-  check_notes(notes, [&](const auto&, const auto&) { is_good = false; });
-  return is_good ? std::move(notes) : nlohmann::json::array();
+// Calls `write(note)` for each stored note. Does not check the notes again, because PUT has checked
+// them; skips a note if `write` throws because the row is damaged.
+template <class Write>
+void for_each_note(const NoteSheet& sheet, const Write& write) {
+  const auto notes = nlohmann::json::parse(sheet.text, nullptr, /*allow_exceptions=*/false);
+  if (!notes.is_array()) return;
+  for (const auto& note : notes) {
+    try {
+      write(note);
+    } catch (const nlohmann::json::exception&) {
+      continue;
+    }
+  }
 }
 
 // Answers with the notes as an annotation page. `version` is that of IIIF Presentation: 3 or 4.
@@ -156,11 +191,11 @@ Response show_annotations(int version, const Request& request, Services& service
     const std::string self =
         fmt::format("{}/api/v1/iiif/{}{}", origin, version == 4 ? "4/" : "", record.id.to_string());
     OrderedJson items = OrderedJson::array();
-    for (const auto& note : stored_notes(*sheet)) {
+    for_each_note(*sheet, [&](const nlohmann::json& note) {
       OrderedJson target =
           version == 4 ? place_in_scene(note, record, self) : OrderedJson(self + "/canvas");
       items.push_back(annotation_of(note, self, origin, std::move(target)));
-    }
+    });
     const auto context = fmt::format("http://iiif.io/api/presentation/{}/context.json", version);
     const OrderedJson page = {{"@context", context},
                               {"id", self + "/annotations.json"},
@@ -202,25 +237,25 @@ static constexpr std::string_view kNotesComponents = R"json({
   "Note": {"type": "object", "required": ["id", "position", "texts"], "additionalProperties": false, "properties": {
     "id": {"type": "string", "pattern": "^[a-z0-9]{1,32}$"},
     "position": {"$ref": "#/components/schemas/Vector", "description": "A point of the surface in the coordinates of the file, which the presentation does not change"},
-    "normal": {"$ref": "#/components/schemas/Vector", "description": "Direction of the surface in the coordinates of the file"},
+    "normal": {"$ref": "#/components/schemas/Vector", "description": "Direction of the surface in the coordinates of the file; not 0, 0, 0"},
     "texts": {"type": "object", "minProperties": 1, "maxProperties": 12, "description": "The texts by language (BCP 47)", "additionalProperties": {"$ref": "#/components/schemas/NoteText"}},
-    "picture": {"type": "string", "maxLength": 1000, "description": "URL of a picture: https://, or a path on this server"},
-    "view": {"type": "object", "required": ["direction"], "additionalProperties": false, "description": "The view of the moment, in the coordinates of the file", "properties": {
-      "direction": {"$ref": "#/components/schemas/Vector", "description": "From the model to the eye"},
+    "picture": {"type": "string", "maxLength": 1000, "description": "URL of a picture: it begins with `https://` and a host, or is a path on this server. At most 1000 bytes"},
+    "view": {"type": "object", "required": ["direction"], "additionalProperties": false, "description": "The view to show with the note, in the coordinates of the file", "properties": {
+      "direction": {"$ref": "#/components/schemas/Vector", "description": "From the model to the eye; not 0, 0, 0"},
       "target": {"$ref": "#/components/schemas/Vector", "description": "The point in the middle of the view; by default the centre of the model"},
       "zoom": {"type": "number", "minimum": 0.1, "maximum": 100, "default": 1, "description": "1 shows the whole model"}}},
-    "light": {"type": "string", "pattern": "^(museum|studio|relief|raking,[0-9]{1,3})$"},
-    "section": {"type": "string", "pattern": "^(|[xyz],[0-9]{1,3}(,flip)?)$", "description": "Direction and position in percent of a cut, such as `y,50`; empty for none"}}},
+    "light": {"type": "string", "pattern": "^(museum|studio|relief|raking,(360|3[0-5][0-9]|[12]?[0-9]{1,2}))$", "description": "The light to show with the note; raking light has an angle from 0 to 360"},
+    "section": {"type": "string", "pattern": "^(|[xyz],(200|1?[0-9]{1,2})(,flip)?)$", "description": "The section to show with the note, such as `y,100` or `y,100,flip`: an axis and a position from 0 to 200, in the axes of the presented model; empty for none"}}},
   "NoteText": {"type": "object", "required": ["title"], "additionalProperties": false, "properties": {
-    "title": {"type": "string", "minLength": 1, "maxLength": 200},
-    "text": {"type": "string", "maxLength": 8000, "description": "Plain text. An empty line separates paragraphs; a link is written as `[words](https://...)`"},
-    "alt": {"type": "string", "maxLength": 8000, "description": "Description of the picture for screen readers"},
-    "audio": {"type": "string", "maxLength": 1000, "description": "URL of a sound in this language"}}},
+    "title": {"type": "string", "minLength": 1, "maxLength": 200, "description": "One line of plain text of at most 200 bytes"},
+    "text": {"type": "string", "maxLength": 8000, "description": "Plain text of at most 8000 bytes. An empty line separates paragraphs; a link is written as `[words](https://...)`"},
+    "alt": {"type": "string", "maxLength": 8000, "description": "Description of the picture for screen readers: plain text of at most 8000 bytes"},
+    "audio": {"type": "string", "maxLength": 1000, "description": "URL of a sound in this language: it begins with `https://` and a host, or is a path on this server. At most 1000 bytes"}}},
   "Notes": {"type": "object", "required": ["notes"], "additionalProperties": false, "properties": {
     "notes": {"type": "array", "maxItems": 100, "items": {"$ref": "#/components/schemas/Note"}}}},
   "Tour": {"type": "object", "required": ["id", "titles", "steps"], "additionalProperties": false, "properties": {
     "id": {"type": "string", "pattern": "^[a-z0-9]{1,32}$"},
-    "titles": {"type": "object", "minProperties": 1, "maxProperties": 12, "description": "The title by language (BCP 47)", "additionalProperties": {"type": "string", "minLength": 1, "maxLength": 200}},
+    "titles": {"type": "object", "minProperties": 1, "maxProperties": 12, "description": "The title by language (BCP 47): one line of plain text of at most 200 bytes", "additionalProperties": {"type": "string", "minLength": 1, "maxLength": 200}},
     "steps": {"type": "array", "maxItems": 100, "items": {"type": "object", "required": ["note"], "additionalProperties": false, "properties": {
       "note": {"type": "string", "pattern": "^[a-z0-9]{1,32}$", "description": "ID of a note; viewers skip notes that do not exist"},
       "seconds": {"type": "number", "minimum": 1, "maximum": 600, "description": "Time until the next step; by default long enough to read the text"},
@@ -251,6 +286,7 @@ static constexpr ApiRoute kNoteRoutes[] = {
      .handler = change_notes,
      .executor = Executor::kDisk,
      .role = Role::kOperator,
+     .body = BodyKind::kLargeJson,
      .doc = {.id = "putNotes",
              .summary = "Replaces all notes on the model's surface.",
              .parameters = "notesIfMatch",
@@ -269,6 +305,7 @@ static constexpr ApiRoute kNoteRoutes[] = {
      .handler = change_tours,
      .executor = Executor::kDisk,
      .role = Role::kOperator,
+     .body = BodyKind::kLargeJson,
      .doc = {.id = "putTours",
              .summary = "Replaces all tours through the model's notes.",
              .parameters = "notesIfMatch",
