@@ -264,7 +264,8 @@ static constexpr std::string_view kModelsComponents = R"json({
       "light": {"anyOf": [{"type": "null"}, {"type": "object", "properties": {
         "preset": {"enum": ["studio", "raking", "relief"]},
         "angle": {"type": "number", "minimum": 0, "maximum": 360, "default": 315, "description": "Direction of raking light in degrees, clockwise from the top"}}}],
-        "description": "The first light of viewers; null for the usual one"}}},
+        "description": "The first light of viewers; null for the usual one"},
+      "notes": {"type": "integer", "minimum": 1, "readOnly": true, "description": "Number of notes on the model; missing if there are none. Only in the field Vitrine-Presentation and the stream"}}},
   "PresentedView": {"type": "object", "description": "A view of the presented model", "properties": {
     "azimuth": {"type": "number", "minimum": -360, "maximum": 360, "description": "Degrees around y; 0 is the front (z), 90 the right side (x)"},
     "elevation": {"type": "number", "minimum": -90, "maximum": 90, "description": "Degrees; 90 is above"},
@@ -382,8 +383,9 @@ static constexpr ApiRoute kModelRoutes[] = {
      .doc = {.id = "getHead",
              .summary =
                  "Returns the header and the base mesh, and the first picture of a texture. They "
-                 "suffice for the first view. If the model is presented otherwise than its file, "
-                 "the field Vitrine-Presentation of the response has the presentation as JSON.",
+                 "suffice for the first view. If the model has notes, or is presented otherwise "
+                 "than its file, the field Vitrine-Presentation of the response has the "
+                 "presentation and the number of notes as JSON.",
              .response = "application/octet-stream"}},
     {.method = Method::kGet,
      .path = "/api/v1/models/{id}/file.pmesh",
