@@ -173,6 +173,14 @@ async function measuredBy({ scan }) {
   return { bytes: answers.map(({ body }) => body) };
 }
 
+/** Gives a model a note and a tour. Returns their texts, of which each has 64 bytes. */
+async function annotate({ model }) {
+  const [note, tour] = [0, 1].map(() => randomBytes(32).toString("hex"));
+  await json(replicas[0], "PUT", `/models/${model}/notes`, "operator", { notes: [{ id: "a", position: [0, 0, 0], texts: { en: { title: "A", text: note } } }] });
+  await json(replicas[0], "PUT", `/models/${model}/tours`, "operator", { tours: [{ id: "t", titles: { en: tour }, steps: [{ note: "a" }] }] });
+  return { bytes: [note, tour].map((text) => Buffer.from(text)) };
+}
+
 /** Returns the file. For a GLB, removes its JSON, because the words in the JSON are not secret. */
 function withoutText(file) {
   return file.subarray(0, 4).toString() === "glTF" ? file.subarray(20 + file.readUInt32LE(12)) : file;
@@ -303,6 +311,7 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
   const subject = make === scan ? "the scan's model" : "the model";
   test(`${subject} gives nothing that it hides if it is ${state}`, async () => {
     const made = await make(++states, order), secrets = new Secrets();
+    const noted = await annotate(made);
     await agree(made.model);
     const hidesPoster = typeof shown !== "number";
     const old = await pictured(made.model, undefined, hidesPoster);
@@ -313,6 +322,9 @@ for (const [make, [state, order, enter, status, shown]] of [...kStates.map((row)
     const now = state === "removed" ? old : await pictured(made.model, undefined, hidesPoster);
     const others = await Promise.all((made.others ?? []).map((model) => pictured(model, undefined, hidesPoster)));
     for (const { bytes } of [old, now, measured, ...others]) bytes.forEach((part) => secrets.hide(part));
+    // Visitors may see the notes of a model if they may see the model, also if its levels are capped.
+    if (status === 404) noted.bytes.forEach((part) => secrets.hide(part));
+    else assert.ok((await ask(replicas[0], "GET", `/api/v1/models/${made.model}/notes`)).body.includes(noted.bytes[0]));
     const open = shown === "all" ? now : shown === "none" ? { bytes: [] } : await pictured(made.model, shown);
     open.bytes.forEach((part) => secrets.reveal(part));
     // Every export states the model's URL as its source. The URL of a public model made at the same time begins equally, because
