@@ -83,10 +83,11 @@ constexpr ApiRoute kContested[] = {{.method = Method::kPut,
                                     .executor = Executor::kDisk,
                                     .role = Role::kOperator}};
 
+// The test's route is first, because the last routes of the daemon match any path.
 std::vector<ApiRoute> all_routes() {
+  std::vector<ApiRoute> all(std::begin(kContested), std::end(kContested));
   const auto routes = public_routes();
-  std::vector<ApiRoute> all(routes.begin(), routes.end());
-  all.insert(all.end(), std::begin(kContested), std::end(kContested));
+  all.insert(all.end(), routes.begin(), routes.end());
   return all;
 }
 
@@ -174,7 +175,9 @@ TEST_F(NotesApi, AModelThatIsRemovedMeanwhileIsNotFound) {
   before_put = [this](Services& services) {
     ASSERT_TRUE(services.catalogue.remove(id_, std::nullopt));
   };
-  EXPECT_EQ(put("/contested", {{"notes", {kEar}}}, operator_).status, 404);
+  const HttpAnswer answer = put("/contested", {{"notes", {kEar}}}, operator_);
+  EXPECT_EQ(answer.status, 404);
+  EXPECT_EQ(json::parse(answer.body)["detail"], "there is no such model");
 }
 
 TEST_F(NotesApi, AClientThatCanOnlyPostNamesItsMethod) {
