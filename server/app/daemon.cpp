@@ -128,7 +128,7 @@ class Daemon {
         pages_(web_assets()),
         metrics_(path_templates(public_routes())),
         visits_(*installation_.visits),
-        tokens_(*installation_.catalogue),
+        tokens_(*installation_.tokens),
         services_{.store = *installation_.store,
                   .catalogue = *installation_.catalogue,
                   .tokens = tokens_,

@@ -13,6 +13,7 @@ namespace vitrine::server::postgres {
 
 struct OpenDatabase {
   std::shared_ptr<sql::Database> database;
+  std::shared_ptr<sql::Database> separate;  // the same database, through other connections
   // Acquires a lock that only one daemon on this database can hold at a time. The lock is lost when
   // its connection ends. The server closes a connection that is silent for 15 seconds. Fails with
   // kIo.

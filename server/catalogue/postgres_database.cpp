@@ -131,7 +131,8 @@ Expected<OpenDatabase> open_database(const std::string& url) {
   try {
     auto database = std::make_shared<PostgresDatabase>(url);
     migrate(*database->lease());
-    return OpenDatabase{database, [database] { return database->lock(); }};
+    return OpenDatabase{database, std::make_shared<PostgresDatabase>(url),
+                        [database] { return database->lock(); }};
   } catch (const sql::Failure& failure) {
     return sql::refused("cannot open the catalogue", failure);
   }

@@ -116,6 +116,12 @@ std::string owner_of(const Exchange& exchange) {
   return exchange.caller ? exchange.caller->token.to_string() : network_of(exchange.client.address);
 }
 
+// Returns the owner of a lookup of the request's token: its network. Emergency stops have another
+// owner, so that they do not wait for other lookups of their network.
+std::string lookup_owner_of(const Exchange& exchange) {
+  return (is_urgent(*exchange.route) ? "stop " : "") + network_of(exchange.client.address);
+}
+
 bool takes_body(const Route& route, BodyKind kind) {
   const bool sends = route.method == Method::kPost || route.method == Method::kPatch ||
                      route.method == Method::kPut;
@@ -251,9 +257,8 @@ asio::awaitable<bool> Dispatcher::authorise_caller(const RequestHeader& header,
   auto found = authorise_at_once(*exchange.route, credentials, with);
   if (!found) {
     connection_.never_expires();
-    co_await server_.workers().look_up_token(network_of(exchange.client.address), [&] {
-      found = authorise(*exchange.route, credentials, with);
-    });
+    co_await server_.workers().look_up_token(
+        lookup_owner_of(exchange), [&] { found = authorise(*exchange.route, credentials, with); });
   }
   exchange.caller = found->caller;
   if (found->refusal) exchange.response = std::move(*found->refusal);

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/fair_turns.h"
 
+#include <chrono>
+#include <new>
 #include <utility>
 
 namespace vitrine::server {
+namespace {
+
+// If memory runs out, a waiter may not be woken for its turn, or may stay outside the queue. Each
+// waiter therefore checks again after this time.
+constexpr std::chrono::seconds kRetryAfter{1};
+
+}  // namespace
+
+FairTurns::Task::~Task() {
+  if (turns) turns->end(*this);
+}
 
 asio::awaitable<FairTurns::Turn> FairTurns::wait(std::string owner, std::string target) {
-  asio::steady_timer timer(co_await asio::this_coro::executor,
-                           asio::steady_timer::time_point::max());
-  const auto waiter =
-      std::make_shared<Waiter>(Waiter{std::move(timer), std::move(owner), std::move(target)});
+  std::set<std::string> targets;
+  if (!target.empty()) targets.insert(target);
+  auto task = std::make_shared<Task>(std::move(owner), std::move(target));
+  asio::steady_timer timer(co_await asio::this_coro::executor);
+  const auto waiter = std::make_shared<Waiter>(Waiter{std::move(timer), task, std::move(targets)});
   push(waiter);
-  give_turns(waiter);
-  while (!waiter->turn)
+  while (!begins(waiter)) {
+    waiter->timer.expires_after(kRetryAfter);
     co_await waiter->timer.async_wait(kNoThrow);
-  co_return std::move(waiter->turn);
+  }
+  co_return task;
 }
 
 void FairTurns::stop() {
@@ -24,62 +39,66 @@ void FairTurns::stop() {
 
 void FairTurns::push(const std::shared_ptr<Waiter>& waiter) {
   const std::scoped_lock lock(mutex_);
-  OwnersTasks& tasks = tasks_of_[waiter->owner];
-  if (tasks.admitted == per_owner_) {
-    tasks.further.push_back(waiter);
-  } else {
-    waiting_.push(waiter->owner, waiter);
-    ++tasks.admitted;
+  tasks_of_[waiter->task->owner].further.push_back(waiter);
+}
+
+bool FairTurns::begins(const std::shared_ptr<Waiter>& waiter) {
+  {
+    const std::scoped_lock lock(mutex_);
+    const std::string& owner = waiter->task->owner;
+    admit(owner, tasks_of_.at(owner));
+  }
+  give_turns(waiter);
+  const std::scoped_lock lock(mutex_);
+  return waiter->task->turns != nullptr;
+}
+
+void FairTurns::admit(const std::string& owner, OwnersTasks& tasks) {
+  try {
+    while (tasks.admitted < per_owner_ && !tasks.further.empty()) {
+      waiting_.push(owner, tasks.further.front());
+      tasks.further.pop_front();
+      ++tasks.admitted;
+    }
+  } catch (const std::bad_alloc&) {  // the further tasks try again after kRetryAfter
   }
 }
 
 void FairTurns::give_turns(const std::shared_ptr<Waiter>& here) {
   while (const auto next = take_next()) {
-    Turn turn = turn_of(*next);
-    if (next == here) {
-      next->turn = std::move(turn);
-      continue;
+    if (next == here) continue;
+    try {
+      asio::post(next->timer.get_executor(), [next] { next->timer.cancel(); });
+    } catch (const std::bad_alloc&) {  // the waiter notices its turn after kRetryAfter
     }
-    asio::post(next->timer.get_executor(), [next, turn = std::move(turn)]() mutable {
-      next->turn = std::move(turn);
-      next->timer.cancel();
-    });
   }
 }
 
+// Allocates no memory, so that no waiter is lost.
 std::shared_ptr<FairTurns::Waiter> FairTurns::take_next() {
   const auto is_ready = [this](const std::shared_ptr<Waiter>& waiter) {
-    return !running_.contains(waiter->target);
+    return !running_.contains(waiter->task->target);
   };
   const std::scoped_lock lock(mutex_);
   if (free_ == 0 || is_stopped_) return nullptr;
   auto next = waiting_.take(is_ready);
   if (!next) return nullptr;
-  if (!(*next)->target.empty()) running_.insert((*next)->target);
+  running_.merge((*next)->targets);
+  (*next)->task->turns = shared_from_this();
   --free_;
   return std::move(*next);
 }
 
-// Begins the waiter's turn. The caller must not hold the lock: if memory runs out, the turn ends
-// immediately, and end() acquires the lock.
-FairTurns::Turn FairTurns::turn_of(Waiter& waiter) {
-  return {this, [self = shared_from_this(), owner = std::move(waiter.owner),
-                 target = std::move(waiter.target)](const void*) { self->end(owner, target); }};
-}
-
-void FairTurns::end(const std::string& owner, const std::string& target) {
+void FairTurns::end(const Task& task) {
   {
     const std::scoped_lock lock(mutex_);
-    running_.erase(target);
+    running_.erase(task.target);
     ++free_;
-    const auto found = tasks_of_.find(owner);
-    auto& [admitted, further] = found->second;
-    if (!further.empty()) {
-      waiting_.push(owner, std::move(further.front()));
-      further.pop_front();
-    } else if (--admitted == 0) {
-      tasks_of_.erase(found);
-    }
+    const auto found = tasks_of_.find(task.owner);
+    OwnersTasks& tasks = found->second;
+    --tasks.admitted;
+    admit(task.owner, tasks);
+    if (tasks.admitted == 0 && tasks.further.empty()) tasks_of_.erase(found);
   }
   give_turns(nullptr);
 }

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "server/auth/fair_queue.h"
 #include "server/http/beast.h"
@@ -32,10 +33,22 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
   void stop();  // no turn begins after this call
 
  private:
+  // A task that waits or runs. The destructor ends its turn, if it has begun. As destructors must
+  // not throw, end() and the functions that it calls work even if memory runs out.
+  struct Task {
+    Task(std::string its_owner, std::string its_target)
+        : owner(std::move(its_owner)), target(std::move(its_target)) {}
+    Task(const Task&) = delete;
+    Task& operator=(const Task&) = delete;
+    ~Task();
+
+    const std::string owner, target;
+    std::shared_ptr<FairTurns> turns;  // null until the turn begins
+  };
   struct Waiter {
     asio::steady_timer timer;
-    std::string owner, target;  // empty once the waiter has its turn
-    Turn turn = nullptr;        // used only on the timer's strand
+    const std::shared_ptr<Task> task;
+    std::set<std::string> targets;  // the task's target; moved to `running_` when its turn begins
   };
   struct OwnersTasks {
     std::size_t admitted = 0;  // number of tasks that run or are in `waiting_`
@@ -43,14 +56,19 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
     std::list<std::shared_ptr<Waiter>> further;
   };
   void push(const std::shared_ptr<Waiter>& waiter);
+  // Whether the waiter's turn has begun. Begins it if one is free for it. Must be called on the
+  // waiter's strand.
+  bool begins(const std::shared_ptr<Waiter>& waiter);
+  // Moves as many of the owner's tasks to `waiting_` as its share allows, or fewer if memory runs
+  // out. The caller must hold the lock.
+  void admit(const std::string& owner, OwnersTasks& tasks);
   // Begins as many turns as are free. `here` is null, or the waiter on whose strand the caller
-  // runs.
+  // runs. The caller must not hold the lock.
   void give_turns(const std::shared_ptr<Waiter>& here);
-  // Removes the next waiter from the queue and marks its target as running. Returns null if no turn
-  // is free, or no waiter is ready.
+  // Removes the next waiter from the queue and begins its turn. Returns null if no turn is free, or
+  // no waiter is ready.
   std::shared_ptr<Waiter> take_next();
-  Turn turn_of(Waiter& waiter);
-  void end(const std::string& owner, const std::string& target);
+  void end(const Task& task);
 
   const std::size_t per_owner_;
   std::mutex mutex_;  // guards the members below

@@ -4,7 +4,8 @@
 namespace vitrine::server {
 namespace {
 
-// The share of one address or owner, so that it cannot lock out others.
+// Returns the share of a capacity that one address or owner may use, so that it cannot lock out
+// others.
 constexpr std::size_t quarter(std::size_t capacity) {
   return (capacity + 3) / 4;
 }
@@ -55,8 +56,8 @@ asio::awaitable<void> Workers::open(std::string owner, Opening opening) {
   });
 }
 
-asio::awaitable<void> Workers::look_up_token(std::string network, std::function<void()> task) {
-  const FairTurns::Turn turn = co_await lookup_turns_->wait(std::move(network));
+asio::awaitable<void> Workers::look_up_token(std::string owner, std::function<void()> task) {
+  const FairTurns::Turn turn = co_await lookup_turns_->wait(std::move(owner));
   co_await run_on(lookups_.executor(), task);
 }
 

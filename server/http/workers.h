@@ -46,9 +46,9 @@ class Workers {
     co_return co_await run_on(executor(where), task);
   }
 
-  // Runs `task`, which looks up the token of a client in `network`, on threads that only look up
-  // tokens. Networks take turns. Must be called on a strand.
-  asio::awaitable<void> look_up_token(std::string network, std::function<void()> task);
+  // Runs `task`, which looks up a token, on threads that only look up tokens. Owners take turns,
+  // and each has one thread at most. Must be called on a strand.
+  asio::awaitable<void> look_up_token(std::string owner, std::function<void()> task);
 
   // Opens a file for a request of `owner`, on threads that only open files. Owners take turns.
   // Requests for the same file also take turns, so that only the first one has to open it. If the

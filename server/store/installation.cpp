@@ -34,10 +34,11 @@ bool may_come_first(std::string_view name) {
 }
 
 struct OpenCatalogue {
-  // With PostgreSQL, both pointers refer to the same object. With SQLite, each has its own
+  // With PostgreSQL, `database` and `jobs` refer to the same object. With SQLite, each has its own
   // connection.
   std::shared_ptr<sql::Database> database, jobs;
-  TakeLock lock;  // the lock that all users of the store share
+  std::shared_ptr<sql::Database> tokens;  // always has its own connections
+  TakeLock lock;                          // the lock that all users of the store share
 };
 
 Expected<OpenCatalogue> open_in_folder(const fs::path& folder) {
@@ -45,7 +46,9 @@ Expected<OpenCatalogue> open_in_folder(const fs::path& folder) {
   if (!database) return tl::unexpected(database.error());
   auto jobs = sqlite::open_database(folder / kCatalogueFile);
   if (!jobs) return tl::unexpected(jobs.error());
-  return OpenCatalogue{std::move(*database), std::move(*jobs),
+  auto tokens = sqlite::open_database(folder / kCatalogueFile);
+  if (!tokens) return tl::unexpected(tokens.error());
+  return OpenCatalogue{std::move(*database), std::move(*jobs), std::move(*tokens),
                        [folder]() -> Expected<std::shared_ptr<const ExclusiveLock>> {
                          if (auto lock = lock_folder(folder)) return lock;
                          return fail(ErrorCode::kIo,
@@ -58,7 +61,7 @@ Expected<OpenCatalogue> open_catalogue(const InstallationPlace& place) {
   if (place.catalogue.empty()) return open_in_folder(place.folder);
   auto database = postgres::open_database(place.catalogue);
   if (!database) return tl::unexpected(database.error());
-  return OpenCatalogue{database->database, database->database, database->lock};
+  return OpenCatalogue{database->database, database->database, database->separate, database->lock};
 }
 
 Expected<std::unique_ptr<ObjectStore>> open_store(const InstallationPlace& place, TakeLock lock) {
@@ -128,6 +131,7 @@ Expected<Installation> open_installation(const InstallationPlace& place) {
   return Installation{.place = place,
                       .store = std::move(*store),
                       .catalogue = make_catalogue(catalogue->database),
+                      .tokens = make_catalogue(catalogue->tokens),
                       .jobs = make_jobs(catalogue->jobs),
                       .notes = make_notes(catalogue->database),
                       .visits = make_visits(catalogue->jobs),

@@ -33,6 +33,9 @@ struct Installation {
   InstallationPlace place;
   std::unique_ptr<ObjectStore> store;
   std::unique_ptr<Catalogue> catalogue;
+  // The same catalogue, through connections that only lookups of tokens use. They wait for no other
+  // user of the catalogue.
+  std::unique_ptr<Catalogue> tokens;
   std::unique_ptr<JobCatalogue> jobs;       // the jobs and scans, in `database`
   std::unique_ptr<NoteCatalogue> notes;     // the notes and tours, in `database`
   std::unique_ptr<VisitCatalogue> visits;   // the counts of visits, in `database`

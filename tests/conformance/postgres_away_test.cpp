@@ -53,6 +53,14 @@ TEST(Postgres, ConnectionsThatARestartHasEndedAreNoFault) {
   EXPECT_TRUE(catalogue->revision());
 }
 
+TEST(Postgres, UsersOfAllConnectionsDelayNoUserOfASeparateOne) {
+  const auto opened = postgres::open_database(new_database()).value();
+  std::vector<std::shared_ptr<sql::DatabaseConnection>> held;
+  for (int i = 0; i < 8; ++i)
+    held.push_back(opened.database->lease());
+  EXPECT_TRUE(make_catalogue(opened.separate)->tokens());
+}
+
 TEST(Postgres, AWrongPasswordIsReportedWithoutShowingIt) {
   const std::string told = fault(with(new_database(), kPostgresPassword, "not-the-secret"));
   EXPECT_THAT(told, HasSubstr("password authentication failed"));

@@ -68,6 +68,8 @@ class LocalServer {
   const std::filesystem::path& data() const { return folder_.path(); }
   JobCatalogue& jobs() { return *installation_.jobs; }
   Catalogue& catalogue() { return *installation_.catalogue; }
+  sql::Database& database() { return *installation_.database; }
+  Workers& workers() { return workers_; }
   Collector& collector() { return collector_; }
   Scrubber& scrubber() { return scrubber_; }
   Uploads& uploads() { return uploads_; }
@@ -126,7 +128,7 @@ class LocalServer {
   LiveSettings settings_{Settings{}};
   Metrics metrics_;
   VisitCounter visits_{*installation_.visits};
-  Authenticator tokens_{*installation_.catalogue};
+  Authenticator tokens_{*installation_.tokens};
   Log events_ = Log::open(folder_.path() / "events.log").value();
   Collector collector_{{*installation_.store, *installation_.catalogue, *installation_.jobs,
                         uploads_, events_, std::chrono::seconds(0)}};

@@ -7,6 +7,7 @@
 #include <semaphore>
 
 #include "server/api/routes.h"
+#include "server/config/networks.h"
 #include "server/messages/body_sink.h"
 #include "server/messages/problem.h"
 #include "support/fake_backend.h"
@@ -176,20 +177,65 @@ TEST(Overload, AnAddressWithManySlowReadsDelaysNoReadOfAnother) {
   EXPECT_EQ(test::http_get(server.port(), "/quick", other, "POST").status, 200);
 }
 
+// A server with a scanner, and an operator whose token the server must look up.
+class ScannerToStop {
+ public:
+  ScannerToStop() { EXPECT_TRUE(server_.scans().start()); }
+
+  test::LocalServer& server() { return server_; }
+  void expect_that_a_stop_gets_through() {
+    const auto answer = test::http_get(server_.port(), "/api/v1/scanners/rig/stop", who_, "POST");
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_TRUE(world_.stopped());
+  }
+
+ private:
+  static std::vector<ApiRoute> all_routes() {
+    std::vector<ApiRoute> all(std::begin(kCrowdedRoutes), std::end(kCrowdedRoutes));
+    all.insert(all.end(), public_routes().begin(), public_routes().end());
+    return all;
+  }
+  std::vector<std::unique_ptr<ScannerBackend>> backends() {
+    std::vector<std::unique_ptr<ScannerBackend>> made;
+    made.push_back(std::make_unique<test::FakeBackend>(world_));
+    return made;
+  }
+
+  test::FakeScanner world_;
+  const std::vector<ApiRoute> routes_ = all_routes();
+  test::LocalServer server_{routes_, std::chrono::seconds(30), backends(), behind_a_proxy()};
+  const std::string who_ = server_.bearer(Role::kOperator) + "Content-Length: 0\r\n";
+};
+
 TEST(Overload, SlowReadsOfManyAddressesDelayNoEmergencyStop) {
-  std::vector<ApiRoute> routes(std::begin(kCrowdedRoutes), std::end(kCrowdedRoutes));
-  routes.insert(routes.end(), public_routes().begin(), public_routes().end());
-  test::FakeScanner world;
-  std::vector<std::unique_ptr<ScannerBackend>> scanners;
-  scanners.push_back(std::make_unique<test::FakeBackend>(world));
-  test::LocalServer server(routes, std::chrono::seconds(30), std::move(scanners), behind_a_proxy());
-  ASSERT_TRUE(server.scans().start());
-  SlowReads reads(server.port(), [](int i) { return "192.0.2." + std::to_string(i); });
+  ScannerToStop scanner;
+  SlowReads reads(scanner.server().port(), [](int i) { return "192.0.2." + std::to_string(i); });
   reads.wait_until_all_threads_are_busy();
-  // The server has not seen this token before, so it must look it up.
-  const std::string who = server.bearer(Role::kOperator) + "Content-Length: 0\r\n";
-  EXPECT_EQ(test::http_get(server.port(), "/api/v1/scanners/rig/stop", who, "POST").status, 200);
-  EXPECT_TRUE(world.stopped());
+  scanner.expect_that_a_stop_gets_through();
+}
+
+TEST(Overload, AReadThatHoldsTheConnectionToTheCatalogueDelaysNoEmergencyStop) {
+  ScannerToStop scanner;
+  const auto held = scanner.server().database().lease();
+  scanner.expect_that_a_stop_gets_through();
+}
+
+TEST(Overload, SlowLookupsOfTokensDelayNoEmergencyStopFromTheirNetwork) {
+  ScannerToStop scanner;
+  asio::io_context io;
+  std::counting_semaphore<> lookups_may_end(0);
+  constexpr int kLookups = 8;
+  for (int i = 0; i < kLookups; ++i) {
+    asio::co_spawn(asio::make_strand(io),
+                   scanner.server().workers().look_up_token(network_of("127.0.0.1"),
+                                                            [&] { lookups_may_end.acquire(); }),
+                   asio::detached);
+  }
+  io.poll();
+  scanner.expect_that_a_stop_gets_through();
+  lookups_may_end.release(kLookups);
+  io.restart();
+  io.run();
 }
 
 TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {

@@ -1,44 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http/fair_turns.h"
-
-#include <gtest/gtest.h>
-
-#include <map>
+#include "turns.h"
 
 namespace vitrine::server {
 namespace {
 
-class Turns : public ::testing::Test {
- private:
-  asio::io_context io_;  // destroyed last, because tasks that wait have timers
-
- protected:
-  // Waits for a turn of the owner, the first letter of `task`. The turn lasts until end(task).
-  void begin(const std::string& task, const std::string& target = "") {
-    auto in_turn = [this, task, target]() -> asio::awaitable<void> {
-      running_[task] = co_await turns->wait(task.substr(0, 1), target);
-      order += task + " ";
-    };
-    asio::co_spawn(asio::make_strand(io_), std::move(in_turn), asio::detached);
-    run_what_is_ready();
-  }
-  void end(const std::string& task) {
-    running_.erase(task);
-    run_what_is_ready();
-  }
-
-  std::shared_ptr<FairTurns> turns;
-  std::string order;  // the tasks in the order in which their turns began
-
- private:
-  void run_what_is_ready() {
-    while (io_.poll() > 0) {
-    }
-    io_.restart();
-  }
-
-  std::map<std::string, FairTurns::Turn> running_;
-};
+using test::Turns;
 
 TEST_F(Turns, AnOwnerHasAtMostItsShareAndOthersHaveTheRest) {
   turns = std::make_shared<FairTurns>(4, 2);
