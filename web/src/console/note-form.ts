@@ -12,19 +12,20 @@ export function newId(): string {
 }
 
 /**
- * Replaces the entries of a list. The focus stays at the control of the same name, and in the same entry if several entries have
+ * Replaces the entries of a list. The focus stays at the control of the same name, and in the same entry if several entries had
  * such a control. If the control is gone or disabled, the next enabled one gets the focus.
  */
 export function refill(list: HTMLElement, entries: HTMLElement[]): void {
   const focused = list.contains(document.activeElement) ? (document.activeElement as HTMLElement) : undefined;
   const entry = [...list.children].findIndex((one) => one.contains(focused ?? null)), at = focused ? controlsIn(list.children[entry]).indexOf(focused) : -1;
+  const name = focused && nameOf(focused), isUnique = controlsIn(list).filter((control) => nameOf(control) === name).length === 1;
   list.replaceChildren(...entries);
-  if (focused) successor(list, entry, at, nameOf(focused))?.focus();
+  if (name !== undefined) successor(list, isUnique, entry, at, name)?.focus();
 }
 
-function successor(list: HTMLElement, entry: number, at: number, name: string): HTMLElement | undefined {
+function successor(list: HTMLElement, isUnique: boolean, entry: number, at: number, name: string): HTMLElement | undefined {
   const sameEntry = controlsIn(list.children[entry]), isSame = (control: HTMLElement) => nameOf(control) === name;
-  const same = sameEntry.find(isSame) ?? controlsIn(list).find(isSame);
+  const same = sameEntry.find(isSame) ?? (isUnique ? controlsIn(list).find(isSame) : undefined);
   if (same && !same.matches(":disabled")) return same;
   const around = same ? controlsIn([...list.children].find((one) => one.contains(same))) : sameEntry, from = same ? around.indexOf(same) : at;
   const all = [...around.slice(from), ...around.slice(0, Math.max(from, 0)).reverse(), ...controlsIn(list), ...controlsIn(list.parentElement)];
