@@ -59,6 +59,11 @@ test.each([null, annotation({ label: null }), annotation({ label: { en: null } }
   annotation({ target: { selector: [null] } }), annotation({ target: { selector: { type: "PointSelector", x: "1", y: 2, z: 3 } } })])("the annotation %j is refused", (malformed) =>
   expect(() => read(page(annotation(), malformed))).toThrow("no notes"));
 
+test("line ends and tabs become what the daemon takes", () => {
+  const { notes } = read(page(annotation({ label: { en: ["An\tear"] }, body: { type: "TextualBody", value: "One\r\ntwo\tthree\r", language: "en" } })));
+  expect(notes[0]!.texts.en).toEqual({ title: "An ear", text: "One\ntwo three\n" });
+});
+
 test("points of the scene are turned and scaled back to the file", () => {
   // The presentation turns z up to y up and takes inches as file units; the scene is in metres.
   const scale = { presentation: { rotation: [-kHalf, 0, 0, kHalf] as [number, number, number, number], scale: 25.4 }, unit: "mm" };

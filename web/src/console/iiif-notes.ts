@@ -61,12 +61,15 @@ function noteOf({ label = {}, body, target }: IiifAnnotation, scale: SceneScale,
   if (x === undefined || y === undefined || z === undefined) return [];
   const bodies = listOf(body), texts: StoredNote["texts"] = {};
   for (const { type, value = "", language = "en" } of bodies)
-    if (type === "TextualBody") texts[language] = textOf(label[language]?.[0] ?? label["none"]?.[0] ?? "", value);
+    if (type === "TextualBody") texts[language] = textOf(plain(label[language]?.[0] ?? label["none"]?.[0] ?? ""), plain(value));
   for (const { type, id, language = "en" } of bodies) if (type === "Sound" && id && texts[language]) texts[language].audio = id;
   const picture = bodies.find(({ type }) => type === "Image")?.id;
   if (Object.keys(texts).length === 0) return [];
   return [{ id: newId(), position: inFile([x, y, z], scale), texts, ...(picture && { picture }) }];
 }
+
+/** Returns a text without the tabs and carriage returns that the daemon refuses. */
+const plain = (text: string): string => text.replace(/\r\n?/g, "\n").replaceAll("\t", " ");
 
 /** Returns the text of a note. Without a label, its title is the first line. If a title is too long, the text has all of it. */
 function textOf(label: string, value: string): NoteText {
