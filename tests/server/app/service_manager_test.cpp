@@ -172,15 +172,14 @@ TEST_F(ServiceManagerTest, HearsNoMoreOfADaemonWhoseWorkersAreAllStuck) {
   const std::string model = "/api/v1/models/" + served.publish("Bust");
   damage_object(served.path(), sha256(served_pmesh().bytes));
   Daemon daemon(served.path(), {"--scrub-rate", "0", "--export-cache", "0", "--request-rate", "0",
-                                "--threads", "2"});
+                                "--threads", "2", "--trusted-proxies", "127.0.0.1"});
   EXPECT_EQ(manager.hear(), "READY=1");
-  std::string requests;
-  for (int i = 0; i < kRequests; ++i)
-    requests += "GET " + model + "/manifest HTTP/1.1\r\nHost: a\r\n\r\n";
   std::vector<std::unique_ptr<HttpClient>> visitors;
-  for (int i = 0; i < kVisitors; ++i) {
+  for (int i = 0; i < kVisitors; ++i) {  // from many addresses, because each may use few workers
     visitors.push_back(std::make_unique<HttpClient>(daemon.port()));
-    visitors.back()->send(requests);
+    for (int j = 0; j < kRequests; ++j)
+      visitors.back()->send("GET " + model + "/manifest HTTP/1.1\r\nHost: a\r\n" +
+                            "X-Forwarded-For: 192.0.2." + std::to_string(i) + "\r\n\r\n");
   }
   EXPECT_TRUE(manager.hears_no_more()) << "nobody reads the messages of the workers";
   EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200) << "the network still answers";
