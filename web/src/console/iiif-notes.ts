@@ -62,10 +62,16 @@ function noteOf({ label = {}, body, target }: IiifAnnotation, scale: SceneScale,
   const bodies = listOf(body), texts: StoredNote["texts"] = {};
   for (const { type, value = "", language = "en" } of bodies)
     if (type === "TextualBody") texts[language] = textOf(plain(label[language]?.[0] ?? label["none"]?.[0] ?? ""), plain(value));
-  for (const { type, id, language = "en" } of bodies) if (type === "Sound" && id && texts[language]) texts[language].audio = id;
-  const picture = bodies.find(({ type }) => type === "Image")?.id;
+  for (const { type, id, language = "en" } of bodies) if (type === "Sound" && id && texts[language]) texts[language].audio = onDaemon(id);
+  const picture = onDaemon(bodies.find(({ type }) => type === "Image")?.id ?? "");
   if (Object.keys(texts).length === 0) return [];
   return [{ id: newId(), position: inFile([x, y, z], scale), texts, ...(picture && { picture }) }];
+}
+
+/** Returns the path of a URL on the daemon itself, which serves this page. Returns other URLs as they are. */
+function onDaemon(url: string): string {
+  const origin = globalThis.location?.origin;
+  return origin && url.startsWith(`${origin}/`) ? url.slice(origin.length) : url;
 }
 
 /** Returns a text without the tabs and carriage returns that the daemon refuses. */
