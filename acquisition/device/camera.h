@@ -25,7 +25,7 @@ struct CameraSettings {
 inline constexpr int kFrameTries = 3;  // capture() requests a frame at most this many times
 // Timeouts in microseconds, each added to the exposure time. kFrameTimeout applies to a requested
 // frame. kStrayTimeout applies to a late frame of an earlier request, which is discarded.
-inline constexpr double kFrameTimeout = 500'000, kStrayTimeout = 100'000;
+inline constexpr double kFrameTimeout = 1'000'000, kStrayTimeout = 100'000;
 
 // Returns the longest time, in microseconds, that capture() takes if the camera responds.
 constexpr double longest_capture(double exposure_us) {
