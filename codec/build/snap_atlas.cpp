@@ -12,7 +12,7 @@ namespace {
 constexpr double kStepsPerEdge = 32;
 // Largest step in coordinate units: a quarter of the least distance between charts.
 constexpr std::int32_t kLargestStep = 1024;
-// Smallest accepted quality() of a face.
+// Every face must have a quality() above this.
 constexpr double kGood = 0.5;
 constexpr int kMendingSweeps = 8;
 constexpr std::int32_t kReach = 2;  // how far mend() moves a wedge along each axis, in steps
@@ -39,7 +39,7 @@ class Snapping {
     }
   }
 
-  // Moves wedges until every face has a quality() of at least kGood. Returns false if that fails.
+  // Moves wedges until every face has a quality() above kGood. Returns false if that fails.
   // On one scan, a coarser lattice without this bound left the packed picture almost empty.
   bool mend() {
     for (int sweep = 0; sweep < kMendingSweeps; ++sweep) {

@@ -50,10 +50,10 @@ class PatchCover {
     // triangle is also within this distance of the covered triangle.
     double height = 0;
   };
-  // Tries to cover `triangle` by a patch of the surface. The patch starts at the surface's triangle
-  // `start`, which should be near the centre of `triangle`. `number` identifies `triangle` in
-  // Overlaps::calls. Stores `mark` (not 0) for those triangles of the patch that lie within `limit`
-  // of `triangle`.
+  // Tries to cover `triangle` by a patch of the surface. The patch grows from the surface's
+  // triangle `start`, which should be near the centre of `triangle`. `number` is the caller's
+  // number of `triangle`, for Overlaps::calls. Stores `mark` (not 0) in Overlaps::mark for each
+  // surface triangle of the patch that lies completely within `limit` of `triangle`.
   CoverResult cover(const TrianglePoints& triangle, std::uint32_t number, std::uint32_t start,
                     double limit, std::uint16_t mark);
 

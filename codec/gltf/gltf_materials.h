@@ -49,8 +49,8 @@ class GltfMaterials {
   const GltfBuffer& buffer_;
   const Limits& limits_;
   CarriedPictures carried_;
-  // Key: index of the image. The map ensures that an image's name, which may be a long data: URI,
-  // is read only once.
+  // Index of an image in the document -> index of its picture in `carried_`. Each image is thus
+  // added only once, and its name, which may be a long data: URI, is read only once.
   std::map<std::uint64_t, std::uint32_t> carried_images_;
   std::vector<Material> materials_;
   std::map<std::uint64_t, std::uint16_t> indices_;  // key: index of the material in the document

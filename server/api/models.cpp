@@ -16,6 +16,7 @@ namespace {
 using Faults = std::vector<ParameterFault>;
 
 // Returns a response with a range of the model's file. The entity tag changes with the file.
+// `suffix` distinguishes the tags of different responses from one file.
 Response stored(const std::shared_ptr<const PublishedModel>& model, ByteRange range,
                 std::string_view suffix) {
   Response response;

@@ -29,7 +29,8 @@ class PosterQueue {
               std::chrono::milliseconds pause = std::chrono::minutes(1))
       : workers_(workers), io_(io), events_(events), make_(std::move(make)), pause_(pause) {}
 
-  // Makes the posters of the model after those of the models added before.
+  // Queues a model, whose posters are made after those of the models queued before it. Returns at
+  // once.
   void add(const ModelId& model) { add(Order{model}); }
 
  private:

@@ -39,11 +39,11 @@ class PostgresDatabase final : public sql::Database,
   // Until this time, calls fail without an attempt to connect, because a recent attempt failed.
   std::chrono::steady_clock::time_point away_until_{};
 
-  // Acquired by the thread of this process that holds the lock or waits for it. The lock has its
-  // own connection, because its holder needs another connection for queries.
+  // Held by the one thread of this process that holds the database lock of lock() or waits for it.
+  // That lock has a connection of its own, because its holder needs another one for queries.
   std::binary_semaphore own_turn_{1};
-  // The idle connection for the lock, used only by the thread that has acquired own_turn_. Null if
-  // there is no idle connection, and while the lock is held.
+  // Idle connection for the database lock. Only the thread that has acquired own_turn_ uses it.
+  // Null while the lock is held, or if there is no idle connection.
   std::unique_ptr<PostgresConnection> locking_;
 };
 

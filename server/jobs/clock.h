@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns the current time in the unit of the catalogue's records.
+// The current time, in the unit of all times in the catalogue.
 #pragma once
 
 #include <chrono>

@@ -21,7 +21,8 @@ namespace vitrine::server {
 
 inline constexpr double kMostLength = 1e12;  // largest coordinate of a point
 
-// Returns the numbers of a JSON array, or nullopt if it has not N numbers from -most to most.
+// Returns the N numbers of a JSON array. Returns nullopt if `json` is not an array of exactly N
+// numbers, each from -most to most.
 template <std::size_t N>
 std::optional<std::array<double, N>> json_numbers(const nlohmann::json& json, double most) {
   std::array<double, N> out{};

@@ -9,7 +9,8 @@
 
 namespace vitrine::server {
 
-// Inserts `text` after the first `place`, unless `html` lacks it.
+// Inserts `text` after the first occurrence of `place`. Does nothing if `html` does not contain
+// `place`.
 inline void insert_after(std::string& html, std::string_view place, std::string_view text) {
   if (const auto at = html.find(place); at != html.npos) html.insert(at + place.size(), text);
 }

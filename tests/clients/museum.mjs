@@ -29,7 +29,7 @@ export class Museum {
     // Sizes are in metres, with y up.
     museum.scan = { triangles: scan.faces.length, size: extent(scan.vertices, 1e-3) };
     await museum.add("bust", museum.scan, join(folder, "bust.ply"), "--unit", "mm", "--creator", "A. Sculptor", "--licence", "CC-BY-4.0");
-    // Each pole has one triangle for each vertex around the ball.
+    // The ball has kUp bands of kAround quads, of two triangles each. In the two bands at the poles, each quad is one triangle.
     await museum.add("ball", { triangles: 2 * kAround * (kUp - 1), size: [2, 2, 2] }, join(folder, "ball.glb"), "--unit", "m");
     return museum;
   }

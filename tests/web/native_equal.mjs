@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that the native decoder and WebAssembly produce identical bytes. Builds every model with
-// both placement rules, and compares all states from the base mesh to full resolution.
+// `--placement midpoint` and with `--placement pyramid`, and compares all states from the base mesh to
+// full resolution.
 // node native_equal.mjs VITRINE STATE_HASH DECODER.wasm MODELS GOLDEN
 import { execFile } from "node:child_process";
 import { createHash } from "node:crypto";

@@ -9,9 +9,10 @@ namespace vitrine::bench {
 
 struct Distances {
   double rms = 0, p95 = 0;  // in mm; p95 is the 95th percentile
-  double within = 0;        // share of points closer than kCovered
+  double within = 0;        // share of points at most kCovered from the other surface
 };
-inline constexpr double kCovered = 0.1;  // distance in mm
+// A point that is at most this far from the other surface, in mm, counts as covered by it.
+inline constexpr double kCovered = 0.1;
 
 struct Accuracy {
   Distances scan_to_truth;  // distances from all points of the scan

@@ -76,7 +76,8 @@ double vertices_of(const Sampled& sampled) {
 
 // Returns the error of adaptive sampling at the given number of vertices. Tries decreasing sampling
 // lengths, starting at `length`. Interpolates on a log-log scale between the lengths that give
-// fewer and more vertices.
+// fewer and more vertices. If `length` gives enough vertices already, returns the error at
+// `length`.
 template <class Error>
 double error_at(double vertices, int length, const Sampler& sampler, const Error& error) {
   Sampled few = sampler.by(SamplingMethod::kAdaptive, length);

@@ -12,23 +12,24 @@
 namespace vitrine::server {
 namespace {
 
-// SQL that changes the newest tables back to those of the version before notes.
+// SQL that reverts the current schema to that of the last version without notes.
 const std::string kBeforeNotes = "DROP TABLE annotation;";
 
-// SQL that changes the newest tables back to those of the version before presentations.
+// SQL that reverts the current schema to that of the last version without presentations.
 const std::string kBeforePresentations =
     kBeforeNotes +
     "DROP INDEX model_guard; ALTER TABLE model DROP COLUMN presentation;"
     "CREATE INDEX model_guard ON model(title);";
 
-// SQL that changes the newest tables back to those of the version before full-text search.
+// SQL that reverts the current schema to that of the last version without full-text search.
 const std::string kBeforeSearch =
     kBeforePresentations +
     "DROP TRIGGER text_added; DROP TRIGGER text_changes; DROP TRIGGER text_changed;"
     "DROP TRIGGER text_removed; DROP VIEW model_text; DROP VIEW model_facet; DROP VIEW model_entry;"
     "DROP TABLE facet_value; DROP TABLE model_index; DROP TABLE model_words;";
 
-// SQL that changes the newest tables back to those of the version before daemons could claim jobs.
+// SQL that reverts the current schema to that of the last version in which daemons could not claim
+// jobs.
 const std::string kBeforeClaims =
     kBeforeSearch +
     "DROP INDEX model_guard; DROP INDEX job_guard; DROP INDEX scan_guard; DROP INDEX token_guard;"

@@ -126,7 +126,7 @@ async function checkPage(url, mark) {
   await viewer.page.context().close();
 }
 
-/** Serves `folder` under `policy` while `check` runs with its URL. */
+/** Serves `folder` with the Content-Security-Policy `policy` while `check` runs with its URL. */
 async function served(folder, policy, check) {
   const site = await serve(folder, policy);
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes pictures in the worker.
 
-/** Maximum size of a band, in pixels. The page uploads a band in one step, without a noticeable pause. */
+/** Maximum size of a band, in pixels. The page copies a band to the GPU in one step, and this size causes no noticeable pause. */
 const kBandPixels = 1 << 18;
 
 /** Decoding options that keep the stored values: normals are not colours, and opacity must not darken colours. */

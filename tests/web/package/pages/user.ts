@@ -18,5 +18,5 @@ viewer.setAssets(assets);
 viewer.addEventListener("refine", ({ detail }) => detail.triangles + 1);
 viewer.addEventListener("click", (event: Event) => event.preventDefault());
 document.querySelector("progressive-mesh")?.dismissPoster();
-// @ts-expect-error: a token is a text
+// @ts-expect-error: a token must be a string
 viewer.token = 5;

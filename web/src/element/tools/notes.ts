@@ -22,7 +22,7 @@ export class Notes implements Tool {
   #reader: NoteReader | undefined;
   #wanted = ""; // the setting that was chosen before the code was loaded
 
-  /** Notes may choose the settings of the tools `moment`. */
+  /** `moment`: the tools for light and section. A note can store their settings. */
   constructor(private readonly bench: Bench, private readonly style: (css: string) => void, private readonly moment: Pick<NoteKit, "light" | "section">) {}
 
   attach(until: AbortSignal): void {
