@@ -9,8 +9,7 @@
 
 namespace vitrine::server {
 
-// Inserts `text` after the first occurrence of `place`. Does nothing if `html` does not contain
-// `place`.
+// Inserts `text` after the first occurrence of `place`. Without `place`, `html` stays as it is.
 inline void insert_after(std::string& html, std::string_view place, std::string_view text) {
   if (const auto at = html.find(place); at != html.npos) html.insert(at + place.size(), text);
 }
