@@ -38,8 +38,10 @@ std::vector<std::string> words_for(const BoardSelector& selector, const std::str
 
 Expected<BoardSelector> selector_from(int argc, char** argv) {
   if (argc != 6)
-    return fail(ErrorCode::kBadInput,
-                "vitrine-guardian is a part of vitrine; do not start it by hand");
+    return fail(
+        ErrorCode::kBadInput,
+        "vitrine-guardian switches a scanner's laser and motor off if the program that drives "
+        "the scanner dies. That program starts it; do not start it by hand");
   const auto dialect = parse_board_dialect(argv[1]);
   if (!dialect) return tl::unexpected(dialect.error());
   return BoardSelector{.dialect = *dialect,
@@ -119,9 +121,11 @@ Expected<Guardian> Guardian::start(const BoardSelector& selector,
                                    const std::filesystem::path& program) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    return fail(ErrorCode::kIo, fmt::format("cannot create a socket for the guardian process: {}; "
-                                            "raise the limit of open files",
-                                            std::generic_category().message(errno)));
+    return fail(
+        ErrorCode::kIo,
+        fmt::format(
+            "cannot create a socket for the guardian process: {}; raise the limit of open files",
+            std::generic_category().message(errno)));
   const auto path = program.empty() ? beside_this_program() : program;
   const auto started = spawn(words_for(selector, path.string()), ends[0]);
   ::close(ends[0]);

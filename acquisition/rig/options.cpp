@@ -13,7 +13,8 @@ namespace {
 
 // The text of --help. {} stands for the list of mesh formats.
 constexpr std::string_view kUsage =
-    R"(Usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... [-- COMMAND [ARGUMENT]...]
+    R"(Usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... -- COMMAND [ARGUMENT]...
+       vitrine-rig --mesh FILE --write-truth FILE [OPTION]...
 
 Simulates a laser scanner: a GigE Vision camera on a loopback address and a motor board on a USB bus
 that only COMMAND sees. Runs COMMAND and exits with its exit code.
@@ -56,8 +57,7 @@ that only COMMAND sees. Runs COMMAND and exits with its exit code.
                        write each command that the board receives to FILE, one per line, after the
                        time in milliseconds since 1970
   --write-truth FILE   write the object to FILE as PLY, in mm in the table's frame at 0 degrees,
-                       with a flag `seen` for each vertex: visible to laser and camera; COMMAND is
-                       then optional
+                       with a flag `seen` for each vertex: visible to laser and camera
   --help, --version    print this help or the version, and exit)";
 
 Unexpected wrong(std::string_view option, std::string_view value, std::string_view wanted) {

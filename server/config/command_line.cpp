@@ -233,9 +233,9 @@ std::string reference() {
       "Usage: vitrined [--config FILE] [--KEY VALUE]...\n\n"
       "A key can be set in a file (--config FILE; lines 'key = value'), in the environment\n"
       "(such as VITRINE_TLS_KEY) and as a flag (--key VALUE). Flags override the environment,\n"
-      "which overrides the file. SIGHUP reads all three again and applies changes of reloadable\n"
-      "keys; after an error it changes nothing and logs the error. SIGUSR1 reopens the access log\n"
-      "after its rotation.\n\n"
+      "which overrides the file. SIGHUP reads the file again and applies changes of reloadable\n"
+      "keys; for other keys, the log says that a restart is needed. After an error, it changes\n"
+      "nothing and logs the error. SIGUSR1 reopens the access log after its rotation.\n\n"
       "N, BYTES and SECONDS are whole numbers without a unit: 1073741824, not 1G. Do not give\n"
       "secrets as flags, because the list of processes shows flags.\n\n";
   constexpr std::size_t kIndent = 6;

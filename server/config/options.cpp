@@ -250,13 +250,12 @@ using S = Settings;
 using enum OptionType;
 
 constexpr std::array kOptions{
-    Option{
-        .key = "listen",
-        .type = kEndpoint,
-        .default_value = "127.0.0.1:8080",
-        .doc =
-            "IP address and port for visitors. Port 0: any free port; unix:/PATH: a Unix socket.",
-        .apply = endpoint<&S::listen>},
+    Option{.key = "listen",
+           .type = kEndpoint,
+           .default_value = "127.0.0.1:8080",
+           .doc = "Numeric IP address, or localhost, and port for visitors. Port 0: any free port; "
+                  "unix:/PATH: a Unix socket.",
+           .apply = endpoint<&S::listen>},
     Option{.key = "tls-certificate",
            .type = kPath,
            .default_value = "",
@@ -292,16 +291,16 @@ constexpr std::array kOptions{
     Option{.key = "uploads",
            .type = kPath,
            .default_value = "",
-           .doc = "Folder for uploads in progress. All daemons that serve or build share it. "
-                  "Empty: in the data folder.",
+           .doc = "Folder for uploads in progress. All daemons that serve or build must use the "
+                  "same folder. Empty: in the data folder.",
            .apply = path<&S::uploads>},
     Option{.key = "store",
            .type = kUrl,
            .default_value = "",
-           .doc = "S3-compatible bucket: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=S. S "
-                  "says where URLs name the bucket: path (default with an endpoint) or virtual "
-                  "(in the host name; default without an endpoint). Empty: objects are in the data "
-                  "folder.",
+           .doc = "S3-compatible bucket: s3://BUCKET[/PREFIX][?endpoint=URL&region=R&style=S]. R: "
+                  "default us-east-1. S says where URLs name the bucket: path (default with an "
+                  "endpoint) or virtual (in the host name; default without an endpoint). Empty: "
+                  "objects are in the data folder.",
            .apply = store_url},
     Option{.key = "store-access-key",
            .type = kText,
@@ -388,8 +387,11 @@ constexpr std::array kOptions{
     Option{.key = "request-rate",
            .type = kCount,
            .default_value = "1000",
-           .doc = "Requests per second of each address (or IPv6 /64 network) and of each token; "
-                  "ten times as many in a burst. Responses from memory do not count. 0: no limit.",
+           .doc =
+               "Requests per second allowed for each address (or IPv6 /64 network) and each token; "
+               "ten times as many in a burst. Further requests get 429. Successful responses "
+               "that need neither the catalogue nor a file, such as chunks of a model in "
+               "'model-cache', do not count. 0: no limit.",
            .apply = number<&S::request_rate, 0, 1'000'000>},
     Option{.key = "min-rate",
            .type = kBytes,
@@ -437,7 +439,7 @@ constexpr std::array kOptions{
            .doc = "Host names, without ports, under which clients reach this daemon. Requests for "
                   "other names are refused (DNS rebinding), except numeric addresses, localhost "
                   "and the hosts of 'public-url' and 'scan-address'. If both 'hosts' and "
-                  "'public-url' are empty, only 'admin-listen' refuses other names.",
+                  "'public-url' are empty, 'listen' accepts every name.",
            .apply = hosts,
            .is_reloadable = true},
     Option{.key = "allowed-origins",

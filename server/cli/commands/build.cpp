@@ -242,9 +242,8 @@ const Command kBuild = {
     .summary = kBuildSummary,
     .details =
         "IN may be a folder with one model, or -, which is standard input. Files to which IN "
-        "refers must be in its folder or "
-        "a subfolder; if IN is -, in the current folder. With -o -, the result is printed to "
-        "standard error.",
+        "refers must be in its folder or a subfolder; if IN is -, in the current folder. With -o "
+        "-, the model goes to standard output, and the summary to standard error.",
     .operands = kBuildOperands,
     .flags = kBuildFlags,
     .examples =

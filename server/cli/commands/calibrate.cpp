@@ -174,8 +174,8 @@ constexpr Flag kCalibrateFlags[] = {
     {"--config", "rig.json",
      "configuration file of the scanner (required); see acquisition/README.md"},
     {"--correspondences", "FILE.csv",
-     "measured points instead of pictures of the target; the first line is u,v,x,y,pose: pixel, "
-     "position in the laser plane in mm, number of the pose"},
+     "with --axis: measured points instead of pictures of the target; the first line is "
+     "u,v,x,y,pose: pixel, position in the laser plane in mm, number of the pose"},
     {"--axis", "FILE.json",
      "with --correspondences: axis of the table as {a, b, offset, tilt, clockwise}; see "
      "acquisition/README.md"},
@@ -190,9 +190,10 @@ const Command kCalibrate = {
     .name = "calibrate",
     .summary = "Calibrates a scanner and prints the calibration's error in mm.",
     .details =
-        "Asks at the terminal to place the target, a ChArUco board, in one "
-        "pose after the other; vitrine-rig places its own. With "
-        "--correspondences and --axis, uses measured points instead.",
+        "Asks at the terminal to place the target, a ChArUco board, in one pose after the other; "
+        "the simulated scanner, vitrine-rig, places its target itself. With --correspondences and "
+        "--axis, which need each other, uses measured points instead. Stores the calibration under "
+        "a new number in the folder 'calibrations' that rig.json names; earlier calibrations stay.",
     .flags = kCalibrateFlags,
     .run = run_calibrate};
 

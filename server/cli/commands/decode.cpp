@@ -126,9 +126,9 @@ constexpr FixedText kDecodeFormats =
     concatenate(join(kExportFormats, extension_of, "|", "|"), "|", kZipChoice);
 constexpr FixedText kDecodeDetails = concatenate(
     "The name of OUT chooses the format. FILE.pmesh may be -, which is standard input. With -o -, "
-    "which is standard output, --format chooses the format, and the result goes to standard error. "
-    "--level, --triangles, --bytes and --error exclude each "
-    "other; without any, the finest level is written. ",
+    "which is standard output, --format chooses the format, and the summary goes to standard "
+    "error. --level, --triangles, --bytes and --error exclude each other; without any, the finest "
+    "level is written. ",
     kNoteOnCompanions);
 constexpr Flag kDecodeFlags[] = {
     {"-o", kDecodeOutput, "mesh file to write (required); - is standard output"},

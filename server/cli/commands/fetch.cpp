@@ -293,8 +293,8 @@ constexpr FixedText kFetchDetails = concatenate(
     kNoteOnCompanions);
 constexpr Flag kFetchFlags[] = {
     {"-o", kFetchOutput,
-     "file to write (required); - is standard output, and an interrupted download is kept in the "
-     "current folder"},
+     "file to write (required); - is standard output. An interrupted download is kept beside it, "
+     "or for - in the current folder"},
     {kOutputFormat, kFetchFormats, kOutputFormatHelp},
     {"--level", "L",
      "level of detail; 0 is the coarsest; the manifest lists the levels "

@@ -35,8 +35,7 @@ std::string note_on_units(const SurfaceInput& a, const SurfaceInput& b) {
   const bool first = a.unit.empty();
   return fmt::format(
       "{} states no unit, and {} is in {}: the coordinates are compared as they are; if the units "
-      "differ, "
-      "build a model of {} with --unit and measure that",
+      "differ, build a model of {} with --unit and measure that",
       first ? "A" : "B", first ? "B" : "A", first ? b.unit : a.unit, first ? "A" : "B");
 }
 
@@ -276,7 +275,8 @@ constexpr Flag kMeasureFlags[] = {
      "equal)"},
     {"--map", "OUT",
      "also write A's surface with a colour for the distance to B: grey where both agree, red where "
-     "A lies outside B, blue where it lies inside; OUT is a mesh file, but not .stl"},
+     "A lies outside B, blue where it lies inside; OUT is a mesh file as for vitrine decode, but "
+     "not .stl"},
     {"--range", "D",
      "with --map: distance, in B's unit, from which red and blue are strongest; default: the "
      "distance that 95 % of A's vertices do not exceed, or the largest if over 95 % lie on B"},
@@ -291,8 +291,9 @@ const Command kMeasure = {
         "Measures the distance between two surfaces in both directions, or compares their "
         "appearance.",
     .details =
-        "A and B are mesh files, or .pmesh files, whose finest level is measured. The result is in "
-        "B's unit.",
+        "A and B are mesh files, or .pmesh files, whose finest level is measured. A is converted "
+        "to B's unit, in which the result is. If only one of them states a unit, coordinates are "
+        "compared as they are, and a note says so.",
     .operands = kMeasureOperands,
     .flags = kMeasureFlags,
     .examples =

@@ -71,10 +71,11 @@ const Command kMigrate = {
     .name = "migrate",
     .summary = "Copies models, tokens and jobs to another data folder, or bucket and database.",
     .details =
-        "The source's daemon may serve during the copy. Changes that it makes after the copy are "
-        "lost, so stop it before the command ends. After an interruption, run the command again. "
-        "Uploads and scan data are not copied. For a bucket or database, give a configuration "
-        "file. If files are damaged, copies the rest, lists them, and ends with exit code 1.",
+        "The source's daemon may run while files are copied, which the progress shows. The "
+        "catalogue is copied last, and later changes at the source are lost, so stop that daemon "
+        "before the files are complete. After an interruption, run the command again. Uploads and "
+        "scan data are not copied. For a bucket or database, give a configuration file. If files "
+        "are damaged, copies the rest, lists them, and ends with exit code 1.",
     .flags = kMigrateFlags,
     .run = migrate_installation};
 

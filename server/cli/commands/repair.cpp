@@ -85,7 +85,9 @@ constexpr Flag kRepairFlags[] = {
 
 const Command kRepair = {
     .name = "repair",
-    .summary = "Puts damaged and missing files of models back from a backup or another copy.",
+    .summary =
+        "Replaces damaged and missing files of models by copies from a backup or another "
+        "installation.",
     .details =
         "Give either --backup or --from. Checks every object by its SHA-256; a daemon may serve "
         "the installation meanwhile. Exit code 1 if an object stays damaged.",

@@ -92,12 +92,12 @@ constexpr Flag kTokenFlags[] = {
     {"--data", "DIR|FILE",
      "data folder on this machine, or configuration file of its daemon, which may be running"},
     {"--role", "viewer|operator|admin",
-     "create: viewer reads unpublished models, operator also publishes and scans, admin also "
-     "manages tokens"},
-    {"--label", "L", "create: note on the token's owner or purpose"},
+     "with create (required): role of the new token. A viewer reads unpublished models, an "
+     "operator also publishes and scans, an admin also manages tokens"},
+    {"--label", "L", "with create: note on the token's owner or purpose"},
     {"--id", "ID",
-     "revoke: ID that create printed; an administrator sees all IDs at /console and by GET "
-     "/api/v1/tokens"},
+     "with revoke (required): ID that create printed; an administrator sees all IDs at /console "
+     "and by GET /api/v1/tokens"},
     {"--server", "URL", "address of a server, such as https://museum.example, instead of --data"},
     {"--token", "T", "with --server: access token of role admin"},
     kTokenFileFlag,

@@ -21,8 +21,8 @@ inline constexpr Flag kLengthFlag = {"--length", "5|10|15|20",
                                      "number of measured points for each kept point, on average"};
 inline constexpr Flag kLargestAngleFlag = {
     "--largest-angle", "DEGREES",
-    "largest angle between view and surface normal, 0 to 90, at which points far apart in depth "
-    "are still joined"};
+    "largest angle between view and surface normal, 0 to 90, at which neighbouring points are "
+    "still joined although their depths differ much"};
 inline constexpr Flag kLargestHoleFlag = {"--largest-hole", "MM",
                                           "largest width of a hole that is closed; 0: none"};
 

@@ -8,8 +8,9 @@
 
 namespace vitrine::server::cli {
 
-inline constexpr Flag kUnitFlag = {"--unit", "mm|cm|m|in",
-                                   "unit of IN (default: the one IN states, m for GLB, else none)"};
+inline constexpr Flag kUnitFlag = {
+    "--unit", "mm|cm|m|in",
+    "unit of IN (default: the one IN states, m for GLB and glTF, else none)"};
 inline constexpr Flag kUpFlag = {
     "--up", "y|z", "axis of IN that points up (default y); the result always has y up"};
 
