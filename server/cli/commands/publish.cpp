@@ -14,6 +14,7 @@
 #include "server/cli/support/audit_trail.h"
 #include "server/cli/support/companion_files.h"
 #include "server/cli/support/console.h"
+#include "server/cli/support/described_files.h"
 #include "server/cli/support/input.h"
 #include "server/cli/support/isolation.h"
 #include "server/cli/support/place.h"
@@ -63,10 +64,10 @@ tl::expected<BuiltFile, Fault> make_pmesh(const InputFile& file, const std::stri
   return built;
 }
 
-tl::expected<InputFile, Fault> open_input(const Arguments& arguments, const std::string& path) {
-  auto file = InputFile::open(path);
+tl::expected<InputFile, Fault> open_input(const DescribedFile& described) {
+  auto file = InputFile::open(described.model.file);
   if (!file) return failed(file.error());
-  if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up")))
+  if (file->is_pmesh() && described.states_reading)
     return misused("--unit and --up apply to meshes; a .pmesh file has both, so build it again");
   return std::move(*file);
 }
@@ -95,44 +96,35 @@ tl::expected<nlohmann::json, Fault> publish_upload(RemoteVitrine& remote, const 
   return remote.await(started->value("job", ""), bar.report());
 }
 
-ModelMetadata metadata_of(const Arguments& arguments, std::filesystem::path name) {
-  if (name.extension() == ".gz") name.replace_extension();
-  return {.title = arguments.text("--title", as_utf8(name.stem().string())),
-          .creator = arguments.text("--creator"),
-          .rights = arguments.text("--rights"),
-          .licence = arguments.text("--licence")};
-}
-
-nlohmann::json order_of(const ModelMetadata& about, const ReadOptions& reading) {
+nlohmann::json order_of(const DescribedFile& described) {
+  const auto& [about, reading] = std::tie(described.about, described.reading);
   nlohmann::json order = {{"publish", true}, {"up", reading.up == UpAxis::kZ ? "z" : "y"}};
-  order["metadata"] = {{"title", about.title},
-                       {"creator", about.creator},
-                       {"rights", about.rights},
-                       {"licence", about.licence}};
+  order["metadata"] = about.more;
+  order["metadata"].update({{"title", about.title},
+                            {"creator", about.creator},
+                            {"rights", about.rights},
+                            {"licence", about.licence}});
   if (!reading.unit.empty()) order["unit"] = reading.unit;
   return order;
 }
 
-CommandOutcome publish_at_server(const Arguments& arguments) {
-  if (arguments.has("--data")) return misused("--data and --server exclude each other; give one");
-  auto remote = RemoteVitrine::of(arguments);
-  if (!remote) return tl::unexpected(remote.error());
-  const auto reading = reading_options(arguments);
-  if (!reading) return tl::unexpected(reading.error());
-  const auto model = ModelPath::of(arguments.operand(0));
-  if (!model) return failed(model.error());
-  const std::string& path = model->file;
-  const ModelMetadata about = metadata_of(arguments, path);
-  if (const auto usable = check_texts(about); !usable) return failed(usable.error());
-  const auto file = open_input(arguments, path);
+// A published model. `url` is empty if the model was published in a folder.
+struct PublishedFile {
+  std::string id, url;
+};
+
+tl::expected<PublishedFile, Fault> publish_at_server(RemoteVitrine& remote,
+                                                     const DescribedFile& described) {
+  const auto file = open_input(described);
   if (!file) return tl::unexpected(file.error());
-  const auto sent = file_to_send(*file, *model, *reading);
+  const std::string& path = described.model.file;
+  const auto sent = file_to_send(*file, described.model, described.reading);
   if (!sent) return tl::unexpected(sent.error());
-  const auto done = publish_upload(*remote, *sent, order_of(about, *reading));
+  const auto done = publish_upload(remote, *sent, order_of(described));
   if (!done) return failed(fmt::format("{}: {}", path, done.error().message));
   if (sent->repairs.empty()) print_repairs(path, done->value("repairs", Lines()));
-  const std::string id = done->value("model", ""), url = remote->origin() + "/models/" + id;
-  return arguments.has("--json") ? print_json({{"id", id}, {"url", url}}) : print(url);
+  const std::string id = done->value("model", "");
+  return PublishedFile{id, remote.origin() + "/models/" + id};
 }
 
 // Publishes the file if the installation's limits on disk space allow it.
@@ -149,50 +141,102 @@ Expected<Publication> publish_within(const StorageLimits& limits, const Installa
                  {.quota = &quota, .repairs = joined_lines(file.repairs)});
 }
 
-CommandOutcome publish_file(const Arguments& arguments) {
-  if (arguments.has("--server")) return publish_at_server(arguments);
-  if (names_token(arguments)) return misused("a token needs --server; leave it out");
-  if (!arguments.has("--data"))
-    return misused("--data or --server is missing; name the data folder or the server");
-  auto reading = reading_options(arguments);
-  if (!reading) return tl::unexpected(reading.error());
-  const auto model = ModelPath::of(arguments.operand(0));
-  if (!model) return failed(model.error());
-  const std::string& path = model->file;
-  const auto file = open_input(arguments, path);
+// Builds a mesh, while the installation is not locked.
+tl::expected<BuiltFile, Fault> built_for(const InstallationPlace& place,
+                                         const StorageLimits& limits,
+                                         const DescribedFile& described) {
+  const auto file = open_input(described);
   if (!file) return tl::unexpected(file.error());
-  const auto place = place_of(arguments.text("--data"));
-  if (!place) return failed(place.error());
-  if (const auto usable = check_existing(*place); !usable) return failed(usable.error());
-  const CompanionFiles companions(*model, file->bytes());
-  reading->beside = companions.contents();
-  reading->name = path;
-  const auto limits = storage_limits_of(arguments.text("--data"));
-  if (!limits) return failed(limits.error());
-  const SpillOptions spill{
-      .folder = place->folder, .disk_reserve = limits->disk.reserve, .input = file->bytes()};
-  const auto pmesh = make_pmesh(*file, path, *reading, spill);
-  if (!pmesh) return tl::unexpected(pmesh.error());
+  const CompanionFiles companions(described.model, file->bytes());
+  ReadOptions reading = described.reading;
+  reading.beside = companions.contents();
+  reading.name = described.model.file;
+  return make_pmesh(
+      *file, described.model.file, reading,
+      {.folder = place.folder, .disk_reserve = limits.disk.reserve, .input = file->bytes()});
+}
 
-  const auto installation = open_installation(*place);
+tl::expected<PublishedFile, Fault> publish_in(const InstallationPlace& place,
+                                              const StorageLimits& limits,
+                                              const DescribedFile& described) {
+  const auto pmesh = built_for(place, limits, described);
+  if (!pmesh) return tl::unexpected(pmesh.error());
+  const auto installation = open_installation(place);
   if (!installation) return failed(installation.error());
   const auto trail = AuditTrail::open(installation->place.folder);
   if (!trail) return failed(trail.error());
-  const auto published =
-      publish_within(*limits, *installation, *pmesh, metadata_of(arguments, path));
+  const std::string& path = described.model.file;
+  const auto published = publish_within(limits, *installation, *pmesh, described.about);
   trail->record("publish", published ? published->id.to_string() : path, published.has_value());
   if (!published) return failed(published.error());
   const std::string id = published->id.to_string();
   if (!published->is_new) {
     print_note(fmt::format(
-        "{} is published under this title already, as {}; give another --title to publish it again",
+        "{} is published under this title already, as {}; give another title to publish it again",
         path, id));
   }
-  if (!arguments.has("--json")) return print(id);
-  return print_json({{"id", id}, {"url", nullptr}});
+  return PublishedFile{id, ""};
 }
 
-constexpr std::string_view kPublishOperands[] = {"IN"};
+CommandOutcome show(const PublishedFile& published, const DescribedFile& described,
+                    const Arguments& arguments, bool is_one_of_many) {
+  const auto& [id, url] = published;
+  if (!arguments.has("--json")) return print(url.empty() ? id : url);
+  nlohmann::json object = {{"id", id}, {"url", nullptr}};
+  if (!url.empty()) object["url"] = url;
+  if (is_one_of_many) object["file"] = described.model.file;
+  return print_json(object);
+}
+
+// Publishes one file after the other. If one fails, continues with the next.
+template <class Publish>
+CommandOutcome publish_all(const Arguments& arguments, const std::vector<DescribedFile>& files,
+                           const Publish& publish) {
+  std::size_t failures = 0;
+  for (const DescribedFile& described : files) {
+    const auto published = publish(described);
+    if (!published && files.size() == 1) return tl::unexpected(published.error());
+    if (!published) {
+      print_fault(published.error().message);
+      ++failures;
+    } else if (auto shown = show(*published, described, arguments, files.size() > 1); !shown) {
+      return shown;
+    }
+  }
+  if (failures == 0) return {};
+  return failed(fmt::format(
+      "{} of {} files are not published; mend them and run the command again, which publishes no "
+      "file twice",
+      failures, files.size()));
+}
+
+CommandOutcome publish_files_at_server(const Arguments& arguments) {
+  if (arguments.has("--data")) return misused("--data and --server exclude each other; give one");
+  auto remote = RemoteVitrine::of(arguments);
+  if (!remote) return tl::unexpected(remote.error());
+  const auto files = described_files(arguments);
+  if (!files) return tl::unexpected(files.error());
+  return publish_all(arguments, *files,
+                     [&](const DescribedFile& file) { return publish_at_server(*remote, file); });
+}
+
+CommandOutcome publish_files(const Arguments& arguments) {
+  if (arguments.has("--server")) return publish_files_at_server(arguments);
+  if (names_token(arguments)) return misused("a token needs --server; leave it out");
+  if (!arguments.has("--data"))
+    return misused("--data or --server is missing; name the data folder or the server");
+  const auto files = described_files(arguments);
+  if (!files) return tl::unexpected(files.error());
+  const auto place = place_of(arguments.text("--data"));
+  if (!place) return failed(place.error());
+  if (const auto usable = check_existing(*place); !usable) return failed(usable.error());
+  const auto limits = storage_limits_of(arguments.text("--data"));
+  if (!limits) return failed(limits.error());
+  return publish_all(arguments, *files,
+                     [&](const DescribedFile& file) { return publish_in(*place, *limits, file); });
+}
+
+constexpr std::string_view kPublishOperands[] = {"IN..."};
 constexpr Flag kPublishFlags[] = {
     {"--data", "DIR|FILE",
      "data folder on this machine, or configuration file of its daemon, which may be running"},
@@ -205,24 +249,26 @@ constexpr Flag kPublishFlags[] = {
     {"--creator", "C", "maker of the object"},
     {"--rights", "R", "holder of the rights, such as \"Museum of Example, 2026\""},
     {"--licence", "L", "licence, such as CC-BY-4.0 or its address"},
-    {"--json", "", "print the result as one JSON object: id and url"}};
+    kSheetFlag,
+    {"--json", "", "print one JSON object for each model: id, url, and file if there are several"}};
 
 }  // namespace
 
 const Command kPublish = {
     .name = "publish",
     .summary =
-        "Publishes a mesh, a package of a mesh and its pictures (zip, tar or gzip) or a .pmesh "
-        "file.",
+        "Publishes meshes, packages of a mesh and its pictures (zip, tar or gzip) or .pmesh files.",
     .details =
         "IN may be a folder with one model and its pictures. Give --data on the daemon's machine, "
         "or --server and --token anywhere else. If the same model is published already with the "
-        "same title, creator, rights and licence, prints its ID and publishes nothing.",
+        "same texts, prints its ID and does not publish it again. If one of several files fails, "
+        "continues with the next, and ends with exit code 1.",
     .operands = kPublishOperands,
     .flags = kPublishFlags,
     .examples =
         "vitrine publish bust.ply --data /var/lib/vitrine --title Bust\nvitrine publish bust.glb "
-        "--server https://museum.example --token-file token.txt --licence CC0-1.0",
-    .run = publish_file};
+        "--server https://museum.example --token-file token.txt --licence CC0-1.0\nvitrine publish "
+        "*.glb --metadata sheet.csv --server https://museum.example --token-file token.txt",
+    .run = publish_files};
 
 }  // namespace vitrine::server::cli

@@ -331,6 +331,81 @@ TEST_F(AtServer, ARefusalIsReportedInTheServersWords) {
   expect_fault(vitrine({"publish", in, "--server", url_}), 2);
 }
 
+// Returns the lines of JSON that a command printed.
+std::vector<nlohmann::json> objects_in(const std::string& output) {
+  std::vector<nlohmann::json> objects;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);)
+    objects.push_back(nlohmann::json::parse(line));
+  return objects;
+}
+
+TEST_F(AtServer, ASheetDescribesManyFilesAndTheRestArePublishedIfOneFails) {
+  const std::string a = write("a.ply", bumpy_ply(500)), b = write("b.ply", bumpy_ply(800)),
+                    bad = write("bad.ply", "no mesh"), by = token("operator");
+  const std::string sheet = write("sheet.csv",
+                                  "file;title;material;unit;licence\n"
+                                  "a.ply;\"Bust; a girl\";marble;cm;\n"
+                                  "bad.ply;Bad;;;\n"
+                                  "b.ply;;;;CC0-1.0\n"
+                                  "absent.ply;C;;;\n");
+  const std::vector<std::string> words =
+      at_server({"publish", a, bad, b, "--metadata", sheet, "--creator", "Anna", "--json"}, by);
+  const ProgramResult result = vitrine(words);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.errors, HasSubstr("bad.ply: "));
+  EXPECT_THAT(result.errors, HasSubstr("1 rows are for other files, first \"absent.ply\""));
+  EXPECT_THAT(result.errors, HasSubstr("1 of 3 files are not published; mend them and run"));
+  const auto made = objects_in(result.output);
+  ASSERT_EQ(made.size(), 2u) << result.output;
+  EXPECT_EQ(made[0]["file"], a);
+  EXPECT_EQ(made[1]["file"], b);
+  const auto shown = [&](const nlohmann::json& object) {
+    const std::string id = object["id"];
+    return nlohmann::json::parse(http_get(daemon_.port(), "/api/v1/models/" + id).body);
+  };
+  EXPECT_EQ(shown(made[0])["title"], "Bust; a girl");
+  EXPECT_EQ(shown(made[0])["material"], "marble");
+  EXPECT_EQ(shown(made[0])["unit"], "cm");
+  EXPECT_EQ(shown(made[1])["title"], "b");
+  EXPECT_EQ(shown(made[1])["creator"], "Anna");
+  EXPECT_EQ(shown(made[1])["licence"], "CC0-1.0");
+  EXPECT_EQ(objects_in(vitrine(words).output), made) << "published twice";
+}
+
+TEST_F(VitrineCommand, TheRowsOfASheetNameFilesOfAFolder) {
+  const std::string data = empty_folder("data"), folder = empty_folder("scans");
+  empty_folder("scans/hall");
+  write("scans/hall/a.ply", bumpy_ply(500));
+  write("scans/b.ply", bumpy_ply(800));
+  const std::string sheet = write("sheet.csv", "file,title,period\nhall/a.ply,A,1650\nb.ply,B,\n");
+  const ProgramResult result = vitrine({"publish", folder, "--metadata", sheet, "--data", data});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  const auto installation = open_installation({.folder = data}).value();
+  const auto id = ModelId::parse(result.output.substr(0, result.output.find('\n')));
+  const auto first = installation.catalogue->find(id.value()).value();
+  EXPECT_EQ(first->title, "A");
+  EXPECT_EQ(first->more.at("period"), "1650");
+}
+
+TEST_F(VitrineCommand, AWrongSheetIsRefusedBeforeAnythingIsPublished) {
+  const std::string data = empty_folder("data"), a = write("a.ply", bumpy_ply(500)),
+                    b = write("b.ply", bumpy_ply(800));
+  const auto refused = [&](const std::string& sheet, const std::string& text) {
+    const ProgramResult result =
+        vitrine({"publish", a, b, "--metadata", write("sheet.csv", sheet), "--data", data});
+    expect_fault(result, 1);
+    EXPECT_THAT(result.errors, HasSubstr(text));
+  };
+  refused("file\na.ply\n", "has no row for \"");
+  refused("file,unit\na.ply,mm\nb.ply,feet\n", "line 3: unit is not mm, cm, m or in");
+  refused("file,up\na.ply,y\nb.ply,x\n", "line 3: up is not y or z");
+  refused("file,doi\na.ply,\nb.ply,none\n", "line 3: the doi is not ");
+  refused("file,titel\n", "did you mean title?");
+  expect_fault(vitrine({"publish", a, b, "--title", "T", "--data", data}), 2);
+  EXPECT_TRUE(std::filesystem::is_empty(data));
+}
+
 TEST_F(AtServer, AnAdministratorMakesAndRevokesTokensRemotely) {
   const std::string admin = token("admin");
   const nlohmann::json made =
