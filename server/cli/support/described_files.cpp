@@ -86,7 +86,9 @@ class DescriptionSheet {
   // Returns the row of a file: the row names it, or the end of its path.
   const SheetRow* row_of(const std::string& in) const {
     const std::string path = (fs::path("/") / fs::path(in).lexically_normal()).string();
-    const auto names = [&](const SheetRow& row) { return path.ends_with("/" + row.text(kFile)); };
+    const auto names = [&](const SheetRow& row) {
+      return path.ends_with(fmt::format("/{}", row.text(kFile)));
+    };
     const auto found = std::ranges::find_if(rows_, names);
     return found == rows_.end() ? nullptr : &*found;
   }

@@ -35,7 +35,7 @@ std::string lower_case(std::string_view text) {
 char separator_of(std::string_view csv) {
   const std::string_view header = csv.substr(0, csv.find('\n'));
   const auto count = [&](char c) { return std::ranges::count(header, c); };
-  return std::ranges::max({',', ';', '\t'}, {}, count);
+  return std::max({',', ';', '\t'}, [&](char a, char b) { return count(a) < count(b); });
 }
 
 // Reads one row after the other.
