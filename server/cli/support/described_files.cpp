@@ -78,7 +78,7 @@ class DescriptionSheet {
     for (const SheetRow& row : rows_)
       if (!used_.contains(row.line)) unused.push_back(row.text(kFile));
     if (unused.empty()) return;
-    print_note(fmt::format("{}: {} rows are for other files, first {}", name_, unused.size(),
+    print_note(fmt::format("{}: rows for other files: {}, first {}", name_, unused.size(),
                            in_quotes(unused.front())));
   }
 

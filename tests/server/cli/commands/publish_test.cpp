@@ -354,7 +354,7 @@ TEST_F(AtServer, ASheetDescribesManyFilesAndTheRestArePublishedIfOneFails) {
   const ProgramResult result = vitrine(words);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.errors, HasSubstr("bad.ply: "));
-  EXPECT_THAT(result.errors, HasSubstr("1 rows are for other files, first \"absent.ply\""));
+  EXPECT_THAT(result.errors, HasSubstr("rows for other files: 1, first 'absent.ply'"));
   EXPECT_THAT(result.errors, HasSubstr("1 of 3 files are not published; mend them and run"));
   const auto made = objects_in(result.output);
   ASSERT_EQ(made.size(), 2u) << result.output;
@@ -397,7 +397,7 @@ TEST_F(VitrineCommand, AWrongSheetIsRefusedBeforeAnythingIsPublished) {
     expect_fault(result, 1);
     EXPECT_THAT(result.errors, HasSubstr(text));
   };
-  refused("file\na.ply\n", "has no row for \"");
+  refused("file\na.ply\n", "has no row for '");
   refused("file,unit\na.ply,mm\nb.ply,feet\n", "line 3: unit is not mm, cm, m or in");
   refused("file,up\na.ply,y\nb.ply,x\n", "line 3: up is not y or z");
   refused("file,doi\na.ply,\nb.ply,none\n", "line 3: the doi is not ");
