@@ -9,9 +9,9 @@
 namespace vitrine::server {
 
 // Returns the URL that IIIF requires for `rights`. `licence` is a Creative Commons licence (an
-// identifier such as CC-BY-4.0, or a URL), or the URL of a statement of RightsStatements.org. The
-// result begins with "http:", because the identifiers in both vocabularies do. Returns nullopt for
-// other texts.
+// identifier such as CC-BY-4.0 or CC-BY-3.0-DE, or the URL of one of its pages), or the URL of a
+// statement of RightsStatements.org or of its page. The result begins with "http:", because the
+// identifiers in both vocabularies do. Returns nullopt for other texts.
 std::optional<std::string> rights_url(std::string_view licence);
 
 // Returns the English label of a statement of RightsStatements.org, such as "In Copyright", or an
