@@ -24,9 +24,12 @@ struct RouteDoc {
   std::string_view parameters = {};  // names of query and header parameters, separated by spaces
   // schema or media type of the request body; empty if there is no body
   std::string_view request = {};
-  unsigned status = 200;  // HTTP status on success
+  bool is_request_optional = false;  // whether the request may have no body
+  unsigned status = 200;             // HTTP status on success
   // schema or media type of the response body; empty if there is no body
   std::string_view response = {};
+  // media type of a response whose body is described by a schema
+  std::string_view response_type = "application/json";
   // whether a client without a token may receive the response compressed by gzip
   bool may_be_gzip = false;
 };

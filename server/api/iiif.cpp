@@ -23,10 +23,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kContext3 = "http://iiif.io/api/presentation/3/context.json";
 constexpr std::string_view kContext4 = "http://iiif.io/api/presentation/4/context.json";
+constexpr std::string_view kType = "application/ld+json";
 
 Response iiif_answer(const Json& json) {
-  const std::string type = fmt::format("application/ld+json;profile=\"{}\"",
-                                       json.at("@context").get_ref<const std::string&>());
+  const std::string type =
+      fmt::format("{};profile=\"{}\"", kType, json.at("@context").get_ref<const std::string&>());
   return revalidated(type, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -322,6 +323,7 @@ static constexpr ApiRoute kIiifRoutes[] = {
              .summary = "Returns the model's IIIF Presentation 3.0 manifest: a canvas with the "
                         "poster, and the model as its rendering.",
              .response = "IiifManifest",
+             .response_type = kType,
              .may_be_gzip = true}},
     {.method = Method::kGet,
      .path = "/api/v1/iiif/4/{id}/manifest.json",
@@ -331,6 +333,7 @@ static constexpr ApiRoute kIiifRoutes[] = {
              .summary = "Returns the model's IIIF Presentation 4.0 manifest: a scene with the "
                         "model.",
              .response = "IiifScene",
+             .response_type = kType,
              .may_be_gzip = true}},
     {.method = Method::kGet,
      .path = "/api/v1/iiif/collection.json",
@@ -343,6 +346,7 @@ static constexpr ApiRoute kIiifRoutes[] = {
                  "are more.",
              .parameters = "cursor collection",
              .response = "IiifCollection",
+             .response_type = kType,
              .may_be_gzip = true}},
     {.method = Method::kGet,
      .path = "/iiif/{id}/manifest.json",

@@ -208,6 +208,7 @@ static constexpr ApiRoute kJobRoutes[] = {
      .doc = {.id = "resumeJob",
              .summary = "Resumes a paused or interrupted job.",
              .request = "Nothing",
+             .is_request_optional = true,
              .status = 202,
              .response = "Job"}},
     {.method = Method::kGet,

@@ -319,6 +319,7 @@ static constexpr ApiRoute kNoteRoutes[] = {
              .summary = "Returns the model's notes as an annotation page of IIIF Presentation 3.0, "
                         "on the canvas of the manifest.",
              .response = "IiifAnnotations",
+             .response_type = "application/ld+json",
              .may_be_gzip = true}},
     {.method = Method::kGet,
      .path = "/api/v1/iiif/4/{id}/annotations.json",
@@ -328,6 +329,7 @@ static constexpr ApiRoute kNoteRoutes[] = {
              .summary = "Returns the model's notes as an annotation page of IIIF Presentation 4.0, "
                         "at points of the scene.",
              .response = "IiifAnnotations",
+             .response_type = "application/ld+json",
              .may_be_gzip = true}},
 };
 

@@ -50,11 +50,12 @@ Json ref(std::string_view kind, std::string_view name) {
   return {{"$ref", fmt::format("#/components/{}/{}", kind, name)}};
 }
 
-// Returns the OpenAPI `content` object for `answer`: the name of a schema, or media types separated
-// by spaces. Client generators treat `format: binary` as raw bytes.
-Json content(std::string_view answer) {
+// Returns the OpenAPI `content` object for `answer`: the name of a schema of the media type
+// `json_type`, or media types separated by spaces. Client generators treat `format: binary` as raw
+// bytes.
+Json content(std::string_view answer, std::string_view json_type = "application/json") {
   if (answer.find('/') == std::string_view::npos)
-    return {{"application/json", {{"schema", ref("schemas", answer)}}}};
+    return {{std::string(json_type), {{"schema", ref("schemas", answer)}}}};
   Json all = Json::object();
   for (std::string_view left = answer; !left.empty();) {
     const std::string_view type = left.substr(0, left.find(' '));
@@ -97,7 +98,7 @@ Json responses(const ApiRoute& route) {
   Json done = {{"description", doc.status == 202   ? "Accepted; the job continues in the background"
                                : doc.status == 101 ? "Switching protocols"
                                                    : "Success"}};
-  if (!doc.response.empty()) done["content"] = content(doc.response);
+  if (!doc.response.empty()) done["content"] = content(doc.response, doc.response_type);
   if (doc.may_be_gzip) {
     done["headers"] = {{"Content-Encoding", ref("headers", "ContentEncoding")},
                        {"Vary", ref("headers", "Vary")}};
@@ -126,7 +127,7 @@ Json operation(const ApiRoute& route) {
                {"tags", Json::array({noun.substr(0, noun.find_first_of("/."))})}};
   if (const Json all = parameters(route); !all.empty()) json["parameters"] = all;
   if (!doc.request.empty()) {
-    json["requestBody"] = {{"required", doc.request != "Nothing"},
+    json["requestBody"] = {{"required", !doc.is_request_optional},
                            {"content", request_content(route)}};
   }
   json["responses"] = responses(route);

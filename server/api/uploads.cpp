@@ -422,6 +422,8 @@ static constexpr ApiRoute kUploadRoutes[] = {
                         "application/offset+octet-stream becomes its first piece.",
              .parameters =
                  "tusResumable uploadLength uploadDeferLength uploadMetadata uploadChecksum",
+             .request = kPieceType,
+             .is_request_optional = true,
              .status = 201}},
     {.method = Method::kOptions,
      .path = "/api/v1/uploads/{id}",

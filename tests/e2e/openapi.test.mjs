@@ -61,10 +61,11 @@ test("answers are of the types and schemas that it tells", async () => {
     if (!at || path.endsWith("/stream")) continue;
     const answer = await fetch(daemon.url + at + (query[path] ?? ""), { headers: { Authorization: `Bearer ${token}` } });
     assert.equal(String(answer.status), Object.keys(get.responses)[0], path);
-    const [[type, { schema }]] = Object.entries(get.responses[answer.status].content);
+    const type = answer.headers.get("content-type").split(";")[0], { content } = get.responses[answer.status];
+    assert.ok(content[type], `${path} is ${type}, but is described as ${Object.keys(content)}`);
+    const { schema } = content[type];
     const body = Buffer.from(await answer.arrayBuffer());
     if (!schema.$ref) continue; // the response is not JSON
-    assert.match(type, /json/, path);
     assert.deepEqual(faults(schema.$ref.split("/").pop(), JSON.parse(body)), [], path);
     ++compared;
   }

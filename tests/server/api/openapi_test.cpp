@@ -108,6 +108,23 @@ void expect_items(const nlohmann::json& json) {
     expect_items(value);
 }
 
+TEST_F(OpenapiTest, NamesTheTypeOfIiif) {
+  std::size_t documents = 0;
+  for (const auto& [path, methods] : document["paths"].items()) {
+    if (!path.starts_with("/api/v1/iiif/")) continue;
+    const auto& content = methods["get"]["responses"]["200"]["content"];
+    EXPECT_TRUE(content.contains("application/ld+json")) << path << content;
+    ++documents;
+  }
+  EXPECT_EQ(documents, 5u);
+}
+
+TEST_F(OpenapiTest, AnUploadMayBeCreatedWithItsFirstPiece) {
+  const auto& body = document["paths"]["/api/v1/uploads"]["post"]["requestBody"];
+  EXPECT_EQ(body["required"], false);
+  EXPECT_TRUE(body["content"].contains("application/offset+octet-stream")) << body;
+}
+
 TEST_F(OpenapiTest, EveryArraySchemaHasItems) {
   expect_items(document);
 }
