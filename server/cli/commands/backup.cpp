@@ -6,6 +6,7 @@
 #include "server/cli/commands/command.h"
 #include "server/cli/support/audit_trail.h"
 #include "server/cli/support/console.h"
+#include "server/cli/support/output.h"
 #include "server/store/installation.h"
 
 namespace vitrine::server::cli {
@@ -37,13 +38,13 @@ CommandOutcome report(const Expected<BackupReport>& done, const Arguments& argum
 CommandOutcome back_up_folder(const Arguments& arguments) {
   if (!arguments.has("--data")) return misused("--data is missing; name the data folder");
   if (!arguments.has("-o")) return misused("-o is missing; name the backup file");
-  const std::filesystem::path data = arguments.text("--data");
+  const std::filesystem::path data = arguments.text("--data"), out = arguments.text("-o");
   if (!std::filesystem::exists(data / kCatalogueFile)) {
     return failed(fmt::format("there is no installation in {}; name the daemon's data folder",
                               data.string()));
   }
-  return report(back_up(data, arguments.text("-o")), arguments, "backup",
-                "put them back with 'vitrine repair'");
+  if (const auto free = check_output(arguments, out); !free) return failed(free.error());
+  return report(back_up(data, out), arguments, "backup", "put them back with 'vitrine repair'");
 }
 
 CommandOutcome restore_file(const Arguments& arguments) {
@@ -62,6 +63,7 @@ CommandOutcome restore_file(const Arguments& arguments) {
 constexpr Flag kBackupFlags[] = {
     {"--data", "DIR", "data folder of the daemon, which may be running (required)"},
     {"-o", "FILE.tar", "backup file to write, a tar archive that ends with SHA256SUMS (required)"},
+    kForceFlag,
     {"--json", "", "print the result as one JSON object: models, files, bytes and damaged"}};
 
 constexpr std::string_view kRestoreOperands[] = {"FILE.tar"};
@@ -76,7 +78,9 @@ const Command kBackup = {
     .summary = "Writes a data folder to one backup file, also while a daemon serves it.",
     .details = "If files are damaged, leaves them out, lists them, and ends with exit code 1.",
     .flags = kBackupFlags,
-    .examples = "vitrine backup --data /var/lib/vitrine -o vitrine.tar",
+    .examples =
+        "vitrine backup --data /var/lib/vitrine -o vitrine.tar\n"
+        "vitrine backup --data /var/lib/vitrine -o nightly.tar --force",
     .run = back_up_folder};
 
 const Command kRestore = {

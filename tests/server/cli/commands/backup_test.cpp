@@ -49,6 +49,17 @@ TEST_F(VitrineCommand, AFolderWithoutAnInstallationIsNotBackedUp) {
   EXPECT_THAT(files(), ::testing::ElementsAre("none"));
 }
 
+TEST_F(VitrineCommand, ABackupReplacesAnotherOnlyByForce) {
+  const std::string data = empty_folder("data"), tar = write("backup.tar", "precious");
+  vitrine_json({"publish", model(), "--data", data});
+  const auto refused = vitrine({"backup", "--data", data, "-o", tar});
+  expect_fault(refused, 1);
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("backup.tar exists; choose another name"));
+  EXPECT_EQ(read("backup.tar"), "precious");
+  EXPECT_EQ(vitrine_json({"backup", "--data", data, "-o", tar, "--force"})["models"], 1);
+  EXPECT_EQ(vitrine_json({"restore", tar, "--data", path("again")})["models"], 1);
+}
+
 TEST_F(VitrineCommand, ADamagedFileIsFoundLeftOutOfABackupAndPutBackFromAnOlderOne) {
   const std::string data = empty_folder("data"), tar = path("backup.tar"),
                     later = path("later.tar");

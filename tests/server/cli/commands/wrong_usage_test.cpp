@@ -177,6 +177,15 @@ TEST_F(VitrineCommand, AModelGivenInPlaceOfAMeshIsNamedWithTheNextStep) {
   }
 }
 
+TEST_F(VitrineCommand, AMeshIsNotReplacedByFusedScans) {
+  const std::string out = write("out.ply", "precious");
+  const ProgramResult result =
+      vitrine({"fuse", path("a"), path("b"), "--config", path("rig.json"), "-o", out});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("out.ply exists; choose another name"));
+  EXPECT_EQ(read("out.ply"), "precious");
+}
+
 TEST_F(VitrineCommand, AMeshIsNotReplacedByAModel) {
   const std::string in = write("in.ply", bumpy_ply(500)), other = write("other.obj", "v 0 0 0\n");
   const ProgramResult result = vitrine({"build", in, "-o", other});
