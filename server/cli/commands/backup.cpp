@@ -88,6 +88,7 @@ const Command kRestore = {
     .summary = "Restores a data folder from a backup file and checks every hash.",
     .operands = kRestoreOperands,
     .flags = kRestoreFlags,
+    .examples = "vitrine restore vitrine.tar --data /srv/new",
     .run = restore_file};
 
 }  // namespace vitrine::server::cli

@@ -195,6 +195,9 @@ const Command kCalibrate = {
         "--axis, which need each other, uses measured points instead. Stores the calibration under "
         "a new number in the folder 'calibrations' that rig.json names; earlier calibrations stay.",
     .flags = kCalibrateFlags,
+    .examples =
+        "vitrine calibrate --config rig.json\n"
+        "vitrine calibrate --config rig.json --correspondences points.csv --axis axis.json",
     .run = run_calibrate};
 
 }  // namespace vitrine::server::cli

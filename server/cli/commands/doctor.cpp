@@ -92,6 +92,9 @@ const Command kDoctor = {.name = "doctor",
                              "installation, and with --url also a server as visitors reach it. "
                              "Exit code 1 if a check fails; warnings do not change it.",
                          .flags = kDoctorFlags,
+                         .examples =
+                             "vitrine doctor --url https://museum.example --data /var/lib/vitrine\n"
+                             "vitrine doctor --data /var/lib/vitrine --scrub",
                          .run = examine};
 
 }  // namespace vitrine::server::cli

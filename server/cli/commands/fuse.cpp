@@ -139,6 +139,7 @@ const Command kFuse = {
         "itself, and refuses a result that may be wrong. The first scan stays in place.",
     .operands = kFuseOperands,
     .flags = kFuseFlags,
+    .examples = "vitrine fuse standing.ply.scan lying.ply.scan --config rig.json -o bust.ply",
     .run = run_fuse};
 
 }  // namespace vitrine::server::cli

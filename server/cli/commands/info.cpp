@@ -139,6 +139,9 @@ const Command kInfo = {.name = "info",
                        .summary = "Prints the header, the levels and the texture of a .pmesh file.",
                        .operands = kInfoOperands,
                        .flags = kInfoFlags,
+                       .examples =
+                           "vitrine info bust.pmesh\n"
+                           "vitrine info bust.pmesh --json",
                        .run = info};
 
 }  // namespace vitrine::server::cli

@@ -77,6 +77,7 @@ const Command kMigrate = {
         "scan data are not copied. For a bucket or database, give a configuration file. If files "
         "are damaged, copies the rest, lists them, and ends with exit code 1.",
     .flags = kMigrateFlags,
+    .examples = "vitrine migrate --from /var/lib/vitrine --to /etc/vitrine.conf",
     .run = migrate_installation};
 
 }  // namespace vitrine::server::cli

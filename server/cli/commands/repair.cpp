@@ -92,6 +92,9 @@ const Command kRepair = {
         "Give either --backup or --from. Checks every object by its SHA-256; a daemon may serve "
         "the installation meanwhile. Exit code 1 if an object stays damaged.",
     .flags = kRepairFlags,
+    .examples =
+        "vitrine repair --data /var/lib/vitrine --backup vitrine.tar\n"
+        "vitrine repair --data /etc/vitrine.conf --from /mnt/replica",
     .run = repair_installation};
 
 }  // namespace vitrine::server::cli

@@ -88,6 +88,7 @@ const Command kReprocess = {
         "pictures of the scan (--keep-frames), because they evaluate the pictures again.",
     .operands = kReprocessOperands,
     .flags = kReprocessFlags,
+    .examples = "vitrine reprocess bust.ply.scan --config rig.json -o again.ply --sampling paper",
     .run = run_reprocess};
 
 }  // namespace vitrine::server::cli

@@ -59,6 +59,21 @@ TEST_F(VitrineCommand, HelpOfACommandIsTheSameInBothForms) {
   EXPECT_EQ(vitrine({"-V"}).output, vitrine({"--version"}).output);
 }
 
+TEST_F(VitrineCommand, HelpOfEveryCommandHasAnExampleOfIt) {
+  const std::string help = vitrine({"--help"}).output;
+  const std::regex command("\n  ([a-z]+)  ");
+  std::size_t commands = 0;
+  for (std::sregex_iterator found(help.begin(), help.end(), command), end; found != end; ++found) {
+    const std::string name = (*found)[1];
+    const std::string text = vitrine({name, "--help"}).output;
+    const std::size_t examples = text.find("\nExamples:\n");
+    ASSERT_NE(examples, text.npos) << name;
+    EXPECT_THAT(text.substr(examples), HasSubstr("vitrine " + name + " "));
+    ++commands;
+  }
+  EXPECT_EQ(commands, 18u) << help;
+}
+
 TEST_F(VitrineCommand, HelpOfFetchNamesEachMemberOfAView) {
   const std::string help =
       std::regex_replace(vitrine({"help", "fetch"}).output, std::regex("\\s+"), " ");
