@@ -331,7 +331,8 @@ test("what a registrar enters stands on the object's page and narrows the galler
   await desk.go(`models/${kore}`, "Kore");
   await page.getByLabel("Rights statement").selectOption({ label: "No Known Copyright" });
   await page.getByLabel("Unit").selectOption("mm");
-  for (const [label, text] of [["Material", "marble; pigment"], ["Period", "Archaic"], ["Collection", "Akropolis"], ["Provenance", "Found in 1886.\n\nNorth-west of the Erechtheion."], ["Scanner", "Rig 2"]])
+  for (const [label, text] of [["Material", "marble; pigment"], ["Period", "Archaic"], ["Collection", "Akropolis"], ["Provenance", "Found in 1886.\n\nNorth-west of the Erechtheion."], ["Scanner", "Rig 2"],
+    ["Contributors", "Kavvadias"], ["Language", "grc"], ["Type", "Sculpture"], ["Related", "Kore 670"], ["Place and period", "Attica, 520 BC"]])
     await fill(label, text);
   await fill("DOI", "https://doi.org/10.5281/zenodo.1");
   await desk.press("Save");
@@ -341,6 +342,7 @@ test("what a registrar enters stands on the object's page and narrows the galler
   await desk.says("Saved.");
   await desk.isFit("registrar");
   const record = await (await asked(`/models/${kore}`)).json();
+  assert.deepEqual(["contributor", "language", "type", "relation", "coverage"].map((name) => record[name]), ["Kavvadias", "grc", "Sculpture", "Kore 670", "Attica, 520 BC"]);
   assert.deepEqual([record.material, record.provenance, record.rights_statement, record.dimensions.unit],
     ["marble; pigment", "Found in 1886.\n\nNorth-west of the Erechtheion.", "http://rightsstatements.org/vocab/NKC/1.0/", "mm"]);
 

@@ -16,9 +16,9 @@ import type { Manifest, ModelRecord } from "./types.ts";
 import { cardOf, dropZone } from "./upload-card.ts";
 
 const words = texts.model;
-const kTexts = ["title", "creator", "rights", "licence", "rights_statement", "description", "date", "period", "place", "subject", "material", "technique",
-  "collection", "identifier", "provenance", "persistent_identifier", "doi", "publisher", "source", "scan_device", "scan_calibration", "scan_date",
-  "scan_software"] as const;
+const kTexts = ["title", "creator", "contributor", "rights", "licence", "rights_statement", "description", "language", "type", "date", "period", "place",
+  "coverage", "subject", "material", "technique", "collection", "identifier", "provenance", "persistent_identifier", "doi", "publisher", "source",
+  "relation", "scan_device", "scan_calibration", "scan_date", "scan_software"] as const;
 const kParagraphs: readonly string[] = ["description", "rights", "provenance"];
 const kHints: Partial<Record<(typeof kTexts)[number], string>> = {
   licence: texts.models.licenceHint, subject: words.severalHint, material: words.severalHint, period: words.severalHint, doi: words.doiHint,
