@@ -131,7 +131,9 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify({ title: "By a colleague" }) });
   await page.getByLabel("Title").fill("Too late");
   await desk.press("Save");
-  await desk.says("The model has changed since; read it again");
+  await desk.says("Somebody else has changed this model meanwhile: Title.");
+  await desk.press("Discard unsaved texts");
+  assert.equal(await page.getByLabel("Title").inputValue(), "By a colleague");
 
   await page.reload();
   await page.getByText("Replace the file…").click();
@@ -369,6 +371,72 @@ test("what a registrar enters stands on the object's page and narrows the galler
   await page.getByRole("link", { name: "No Known Copyright" }).waitFor();
   await page.getByText("mm (W × H × D)").waitFor();
   assert.equal(await page.getByRole("link", { name: "10.5281/zenodo.1" }).getAttribute("href"), "https://doi.org/10.5281/zenodo.1");
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("unsaved texts are not lost, and those of two operators are both kept", async () => {
+  const id = (await daemon.publish(scan, "Nike")).split("/").pop(), record = async () => (await asked(`/models/${id}`)).json();
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk, save = page.getByRole("button", { name: "Save", exact: true });
+  const field = (label) => page.getByLabel(label, { exact: true });
+  const sent = [];
+  page.on("request", (request) => request.method() === "PATCH" && sent.push(request.postDataJSON()));
+  await desk.go(`models/${id}`, "Nike");
+  assert.ok(await save.isDisabled(), "nothing is unsaved");
+
+  // While the form is built again.
+  await field("Provenance").fill("Found in 1863.\n\nSamothrace.");
+  await field("Material").fill("marble");
+  await desk.press("Withdraw from the gallery");
+  await page.locator(".badge.draft").waitFor();
+  assert.equal(await field("Provenance").inputValue(), "Found in 1863.\n\nSamothrace.");
+  await desk.press("Publish");
+  await page.locator(".badge.published").waitFor();
+  assert.equal(await field("Material").inputValue(), "marble");
+  await page.getByText("Replace the file…").click();
+  await desk.drop("small.obj", kTetrahedron);
+  await desk.press("Replace");
+  await page.locator("dd").filter({ hasText: "4 triangles" }).waitFor({ timeout: 60_000 });
+  assert.equal(await field("Material").inputValue(), "marble");
+
+  // On another page, and when the browser leaves the console.
+  await desk.go("jobs", "Jobs");
+  await desk.go(`models/${id}`, "Nike");
+  await desk.says("These changes are not saved yet.");
+  assert.equal(await field("Provenance").inputValue(), "Found in 1863.\n\nSamothrace.");
+  await desk.isFit("unsaved");
+  const question = page.waitForEvent("dialog");
+  const left = page.evaluate(() => void setTimeout(() => location.reload()));
+  const dialog = await question;
+  assert.equal(dialog.type(), "beforeunload");
+  await dialog.dismiss();
+  await left;
+  assert.equal(await field("Material").inputValue(), "marble");
+
+  // A colleague changes another field and the same field.
+  await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify({ creator: "Pythokritos", material: "Parian marble" }) });
+  await save.click();
+  await desk.says("Somebody else has changed this model meanwhile: Creator, Material.");
+  await desk.says("Stored meanwhile: “Parian marble”");
+  assert.equal(await field("Creator").inputValue(), "Pythokritos");
+  assert.equal(await field("Material").inputValue(), "marble");
+  assert.equal((await record()).material, "Parian marble", "nothing is replaced before the operator has seen it");
+  await desk.isFit("outdated");
+  await save.click();
+  await desk.says("Saved.");
+  const { creator, material, provenance } = await record();
+  assert.deepEqual([creator, material, provenance], ["Pythokritos", "marble", "Found in 1863.\n\nSamothrace."]);
+  assert.deepEqual(Object.keys(sent.at(-1)).sort(), ["material", "provenance"], "only changed fields are sent");
+  await page.waitForFunction(() => document.querySelector(".form [type=submit]")?.disabled);
+
+  // A change that the form does not show, such as a note, is no conflict.
+  await field("Material").fill("Parian marble");
+  await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify({ presentation: { scale: 2 } }) });
+  await save.click();
+  await page.waitForFunction(() => document.querySelector("[name=material]").closest("form").querySelector("[type=submit]").disabled);
+  assert.equal((await record()).material, "Parian marble");
+  await page.reload(); // asks nothing, because all is saved
+  await asked(`/models/${id}`, { method: "DELETE" });
   assert.deepEqual(desk.complaints, []);
   await desk.close();
 });

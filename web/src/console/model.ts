@@ -3,12 +3,13 @@
 import { snippet } from "../ui/about.ts";
 import { copyable } from "../ui/copy.ts";
 import { h } from "../ui/dom.ts";
-import { kLicences, kRightsStatements } from "../ui/rights.ts";
 import { count, date, size, texts as gallery } from "../ui/texts/index.ts";
 import type { ConsolePage, Visit } from "./desk.ts";
-import { Alert, button, field, form, isConfirmed, type Values } from "./forms.ts";
+import { forgetDrafts, guardDrafts, newDrafts } from "./drafts.ts";
+import { Alert, button, field, form, isConfirmed } from "./forms.ts";
 import { levelReport } from "./levels.ts";
-import type { NotePart, NotesEditor } from "./notes.ts";
+import { MetadataForm, type MetadataDraft } from "./metadata.ts";
+import type { NotePart, NotesDraft, NotesEditor } from "./notes.ts";
 import type { Placed, PresentationEditor } from "./presentation.ts";
 import { facts, heading, modelBadge, repairList } from "./parts.ts";
 import { language, texts } from "./texts/index.ts";
@@ -16,14 +17,8 @@ import type { Manifest, ModelRecord } from "./types.ts";
 import { cardOf, dropZone } from "./upload-card.ts";
 
 const words = texts.model;
-const kTexts = ["title", "creator", "contributor", "rights", "licence", "rights_statement", "description", "language", "type", "date", "period", "place",
-  "coverage", "subject", "material", "technique", "collection", "identifier", "provenance", "persistent_identifier", "doi", "publisher", "source",
-  "relation", "scan_device", "scan_calibration", "scan_date", "scan_software"] as const;
-const kParagraphs: readonly string[] = ["description", "rights", "provenance"];
-const kHints: Partial<Record<(typeof kTexts)[number], string>> = {
-  licence: texts.models.licenceHint, subject: words.severalHint, material: words.severalHint, period: words.severalHint, doi: words.doiHint,
-  persistent_identifier: words.identifierHint,
-};
+const drafts = { metadata: newDrafts<MetadataDraft>(), presentation: newDrafts<Placed>(), notes: newDrafts<NotesDraft>() };
+guardDrafts();
 
 /**
  * Creates a viewer that shows the model. For a draft, the viewer sends the operator's token, and a
@@ -44,7 +39,7 @@ class ModelEditor {
   readonly #side = h("section", { class: "side" });
   readonly #report = h("section", { class: "card", hidden: true });
   readonly #repairs = h("section", { class: "card", hidden: true });
-  readonly #form = h("section", { class: "card" });
+  readonly #metadata: MetadataForm;
   readonly #setting = h("details", { class: "card setting", ontoggle: () => void this.#openSetting() }, h("summary", {}, words.setting));
   readonly #noting = h("details", { class: "card setting noting", ontoggle: () => void this.#openNotes() }, h("summary", {}, texts.notes.title));
   #editor: PresentationEditor | undefined;
@@ -58,12 +53,18 @@ class ModelEditor {
 
   constructor(private readonly visit: Visit, private readonly id: string) {
     this.#path = `/models/${id}`;
+    this.#metadata = new MetadataForm({
+      drafts: drafts.metadata,
+      save: (changes) => visit.desk.api.send("PATCH", this.#path, changes, this.#tag),
+      reread: async () => this.#show(await this.#read()),
+      saved: (names) => this.#saved(names),
+    });
   }
 
   async open(): Promise<string> {
     const { view } = this.visit, model = await this.#read();
     view.append(h("header", { class: "heading" }, this.#title, this.#state),
-      h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#setting, this.#noting, this.#report, this.#repairs, this.#replacing()), h("div", {}, this.#side, this.#form)));
+      h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#setting, this.#noting, this.#report, this.#repairs, this.#replacing()), h("div", {}, this.#side, this.#metadata.element)));
     this.#show(model);
     void this.#showLevels();
     return model.title || gallery.untitled;
@@ -91,6 +92,13 @@ class ModelEditor {
     this.#title.focus();
   }
 
+  /** Shows the model after the fields `names` of its metadata have been stored. */
+  async #saved(names: readonly string[]): Promise<void> {
+    this.#show(await this.#read(), names);
+    this.#title.focus();
+    this.visit.desk.say(words.saved);
+  }
+
   /** Makes the viewer show the new file after the model's file was replaced. */
   async #again(): Promise<void> {
     this.#shown = "";
@@ -103,7 +111,7 @@ class ModelEditor {
     if (this.#editor || !this.#setting.open || !this.#model) return;
     const { desk, signal } = this.visit, { PresentationEditor } = await import("./presentation.ts");
     const poster = () => desk.api.blob(`${this.#path}/poster.png?width=240`, signal);
-    const editor = (this.#editor = new PresentationEditor({ h, field, form, texts, gallery, language }, { stage: this.#stage, signal, poster, save: (changes) => this.#present(changes) }));
+    const editor = (this.#editor = new PresentationEditor({ h, field, form, texts, gallery, language }, { drafts: drafts.presentation, stage: this.#stage, signal, poster, save: (changes) => this.#present(changes) }));
     this.#setting.append(editor.element);
     editor.show(this.#model);
   }
@@ -124,7 +132,7 @@ class ModelEditor {
     const { NotesEditor } = await import("./notes.ts");
     const path = (part: NotePart) => `${this.#path}/${part}`;
     const editor = new NotesEditor({ h, field, form, texts, gallery, language }, {
-      id: this.id, title: model().title, scale: model, stage: this.#stage, signal, saved: () => say(words.saved),
+      drafts: drafts.notes, id: this.id, title: model().title, scale: model, stage: this.#stage, signal, saved: () => say(words.saved),
       read: (part) => api.tagged(path(part), signal),
       save: async (part, documents, tag) => (await api.sendTagged("PUT", path(part), documents, tag)).tag,
     });
@@ -138,7 +146,7 @@ class ModelEditor {
     await this.visit.desk.api.send("PATCH", this.#path, changes, this.#tag);
     const model = await this.#read();
     this.#sight(model);
-    (this.#form.querySelector("[name=unit]") as HTMLSelectElement).value = model.unit;
+    this.#metadata.show(model, ["unit"]);
     void this.#showLevels();
     this.visit.desk.say(words.saved);
     return model;
@@ -149,7 +157,8 @@ class ModelEditor {
     this.#stage.prepend(sight(this.visit, model));
   }
 
-  #show(model: ModelRecord): void {
+  /** Shows a state of the model. `own` are the fields of its metadata that the operator has just stored. */
+  #show(model: ModelRecord, own: readonly string[] = []): void {
     this.#editor?.show(model);
     this.#title.textContent = model.title || gallery.untitled;
     this.#state.replaceChildren(modelBadge(model));
@@ -157,7 +166,7 @@ class ModelEditor {
     this.#shown = model.state;
     this.#side.replaceChildren(...this.#actions(model));
     this.#showRepairs(model);
-    this.#form.replaceChildren(h("h2", {}, words.metadata), this.#details(model));
+    this.#metadata.show(model, own);
   }
 
   #showRepairs({ repairs = [] }: ModelRecord): void {
@@ -174,6 +183,7 @@ class ModelEditor {
     const remove = async () => {
       if (!(await isConfirmed(words.deleteQuestion(model.title || gallery.untitled), words.deleteExplanation, words.deleteNow))) return;
       await api.send("DELETE", this.#path, undefined, this.#tag);
+      forgetDrafts(this.id);
       say(words.deleted);
       location.hash = "#/models";
     };
@@ -185,24 +195,6 @@ class ModelEditor {
         [gallery.iiif, isPublic ? h("a", { href: `/iiif/${this.id}/manifest.json` }, `/iiif/${this.id}/…`) : null]),
       isPublic ? copyable(gallery.embed, snippet(model, location.origin)) : "",
     ].filter((part): part is HTMLElement => part !== "");
-  }
-
-  #details(model: ModelRecord): HTMLElement {
-    const text = (name: (typeof kTexts)[number]) => field({
-      name, value: model[name], label: name === "title" ? gallery.title : name === "description" ? words.description : gallery.facts[name],
-      ...(kParagraphs.includes(name) ? { type: "textarea" as const } : {}), ...(kHints[name] ? { hint: kHints[name] } : {}),
-      ...(name === "licence" ? { suggestions: kLicences } : {}),
-      ...(name === "rights_statement" ? { options: [["", words.noStatement], ...kRightsStatements] as [string, string][] } : {}),
-    });
-    const units: [string, string][] = [["", words.unknownUnit], ...Object.entries(gallery.units)];
-    const save = async (values: Values) => {
-      await this.#changed(this.visit.desk.api.send("PATCH", this.#path, values, this.#tag));
-      this.visit.desk.say(words.saved);
-    };
-    return form([...kTexts.map(text), field({ name: "unit", label: gallery.facts.unit, options: units, value: model.unit }),
-      field({ name: "accuracy", label: gallery.facts.accuracy, hint: words.accuracyHint, type: "number", step: "any", min: 0, value: model.accuracy }),
-      field({ name: "public_max_level", label: words.publicLevel, hint: words.publicLevelHint, type: "number", min: 0, max: 255, value: model.public_max_level })],
-    words.save, save);
   }
 
   /** Creates the form that replaces the model's file. The model keeps its URL and metadata. */

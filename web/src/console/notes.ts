@@ -11,6 +11,8 @@ import { TourForm } from "./tour-form.ts";
 export type NotePart = keyof NoteDocuments;
 
 export interface NotesOptions {
+  /** Unsaved changes by the model's ID. */
+  drafts: Map<string, NotesDraft>;
   id: string;
   /** Name for saved files. */
   title: string;
@@ -29,13 +31,10 @@ const kParts = ["notes", "tours"] as const;
 const kStill = 5; // pixels that the pointer may move during a click
 
 /** Unsaved changes, and the entity tags of the stored documents on which they are based. */
-interface Draft {
+export interface NotesDraft {
   documents: NoteDocuments;
   tags: Record<NotePart, string>;
 }
-
-const drafts = new Map<string, Draft>(); // by the model's ID
-addEventListener("beforeunload", (event) => drafts.size > 0 && event.preventDefault());
 
 export class NotesEditor {
   readonly element: HTMLElement;
@@ -81,9 +80,9 @@ export class NotesEditor {
   /** Reads the stored notes and tours. Continues with unsaved changes, if there are any. */
   async open(): Promise<void> {
     await this.#read();
-    this.#change(drafts.get(this.options.id)?.documents ?? this.#saved, true);
+    this.#change(this.options.drafts.get(this.options.id)?.documents ?? this.#saved, true);
     this.#listen();
-    const draft = drafts.get(this.options.id); // #change() removes a draft that equals the stored documents
+    const draft = this.options.drafts.get(this.options.id); // #change() removes a draft that equals the stored documents
     if (!draft) return;
     const isOutdated = kParts.some((part) => draft.tags[part] !== this.#tags[part]);
     this.#said.textContent = isOutdated ? this.kit.texts.notes.outdated : this.kit.texts.presentation.restored;
@@ -198,8 +197,8 @@ export class NotesEditor {
   #change(now: NoteDocuments, isOther = false): void {
     this.#now = now;
     const isSame = JSON.stringify(now) === JSON.stringify(this.#saved);
-    if (isSame) drafts.delete(this.options.id);
-    else drafts.set(this.options.id, { documents: now, tags: drafts.get(this.options.id)?.tags ?? { ...this.#tags } });
+    if (isSame) this.options.drafts.delete(this.options.id);
+    else this.options.drafts.set(this.options.id, { documents: now, tags: this.options.drafts.get(this.options.id)?.tags ?? { ...this.#tags } });
     this.#discard.disabled = isSame;
     (this.#form.querySelector("[type=submit]") as HTMLButtonElement).disabled = isSame;
     this.#noteForm.note = this.#note;
@@ -240,7 +239,7 @@ export class NotesEditor {
         if (JSON.stringify(sent) === JSON.stringify(this.#saved[part])) continue;
         const tag = (this.#tags[part] = await this.options.save(part, { [part]: sent }, this.#tags[part]));
         this.#saved = { ...this.#saved, [part]: sent };
-        const draft = drafts.get(this.options.id);
+        const draft = this.options.drafts.get(this.options.id);
         if (draft) draft.tags[part] = tag;
       }
     } catch (error) {

@@ -26,6 +26,8 @@ export interface Kit {
 export type Placed = { unit: Unit | ""; presentation: Presentation };
 
 export interface EditorOptions {
+  /** Unsaved changes by the model's ID. */
+  drafts: Map<string, Placed>;
   /** The element that contains the viewer. */
   stage: HTMLElement;
   signal: AbortSignal;
@@ -37,9 +39,6 @@ export interface EditorOptions {
 
 const kAxes: Record<"x" | "y" | "z", Vector> = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const kPlain: Presentation = { rotation: [0, 0, 0, 1], scale: 1, view: null, poster: null, light: null };
-
-const drafts = new Map<string, Placed>(); // unsaved changes by the model's ID
-addEventListener("beforeunload", (event) => drafts.size > 0 && event.preventDefault());
 
 export class PresentationEditor {
   readonly element: HTMLElement;
@@ -93,7 +92,7 @@ export class PresentationEditor {
   show({ id, unit, presentation }: ModelRecord): void {
     this.#id = id;
     this.#saved = { unit, presentation };
-    const draft = drafts.get(id);
+    const draft = this.options.drafts.get(id);
     this.#restored.hidden = !draft;
     this.#change(draft ?? this.#saved);
     void this.#showPoster();
@@ -163,8 +162,8 @@ export class PresentationEditor {
   #change(now: Placed, writesScale = true): void {
     this.#now = now;
     const isSame = JSON.stringify(now) === JSON.stringify(this.#saved);
-    if (isSame) drafts.delete(this.#id);
-    else drafts.set(this.#id, now);
+    if (isSame) this.options.drafts.delete(this.#id);
+    else this.options.drafts.set(this.#id, now);
     if (isSame) this.#restored.hidden = true;
     this.#discard.disabled = isSame;
     (this.#form.querySelector("[type=submit]") as HTMLButtonElement).disabled = isSame;
@@ -194,7 +193,7 @@ export class PresentationEditor {
 
   async #save(): Promise<void> {
     const model = await this.options.save(this.#now);
-    drafts.delete(this.#id);
+    this.options.drafts.delete(this.#id);
     this.show(model);
   }
 

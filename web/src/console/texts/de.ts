@@ -97,6 +97,9 @@ export const de: ConsoleTexts = {
     replaceDrop: "Die neue Datei hier ablegen",
     replaceNow: "Ersetzen",
     setting: "Objekt ausrichten…",
+    discard: "Ungespeicherte Texte verwerfen",
+    outdated: (fields) => `Jemand anderes hat dieses Modell inzwischen geändert: ${fields}. Die ungespeicherten Texte sind noch da. Speichern sichert sie und behält die anderen Änderungen, außer in Feldern, die hier ebenfalls geändert wurden.`,
+    storedNow: (text) => `Inzwischen gespeichert: „${text}“`,
   },
   presentation: {
     upright: "Aufrecht",

@@ -95,6 +95,9 @@ export const en = {
     replaceDrop: "Drop the new file here",
     replaceNow: "Replace",
     setting: "Set the object right…",
+    discard: "Discard unsaved texts",
+    outdated: (fields: string) => `Somebody else has changed this model meanwhile: ${fields}. Your unsaved texts are kept. Save stores them, and keeps the other changes except in the fields that you changed, too.`,
+    storedNow: (text: string) => `Stored meanwhile: “${text}”`,
   },
   presentation: {
     upright: "Upright",
