@@ -20,7 +20,9 @@ std::string tag_of(std::span<const std::uint8_t> bytes) {
 
 // The page that other sites show in an oEmbed frame.
 constexpr std::string_view kViewer = "/model.html";
-// Number of models in the HTML of a collection's page. Its script loads the others.
+constexpr std::string_view kGallery = "/index.html";
+// Number of models in the HTML of the gallery and of a collection's page. Its script loads the
+// others.
 constexpr std::uint32_t kModelsInPage = 24;
 
 Response page(std::string_view path, const Request& request, Services& services) {
@@ -40,6 +42,10 @@ Response page(std::string_view path, const Request& request, Services& services)
   response.etag = found->gzip_etag;
   response.body = SharedBytes{nullptr, found->asset.gzip};
   return response;
+}
+
+std::string_view text_of(const WebPage& page) {
+  return {reinterpret_cast<const char*>(page.asset.bytes.data()), page.asset.bytes.size()};
 }
 
 std::string sitemap_entry(std::string_view element, std::string_view origin,
@@ -76,18 +82,28 @@ const WebPage* WebPages::find(std::string_view path) const {
   return found == pages_.end() ? nullptr : &found->second;
 }
 
+// Shows the newest models, also to browsers without JavaScript. The script of the page shows them
+// alone if the URL has a search or if the catalogue fails.
 static Response show_gallery(const Request& request, Services& services) {
-  return page("/index.html", request, services);
+  const WebPage* gallery = services.pages.find(kGallery);
+  if (gallery == nullptr || !request.query.empty()) return page(kGallery, request, services);
+  const auto found = services.catalogue.search({.limit = kModelsInPage});
+  if (!found) {
+    tell_operator(found.error(), request.id, services);
+    return page(kGallery, request, services);
+  }
+  return revalidated(
+      gallery->asset.type,
+      with_gallery(std::string(text_of(*gallery)), found->models, origin_of(request, services)));
 }
 
 static Response show_viewer(const Request& request, Services& services) {
   return with_model(request, services, [&](const auto& model) {
     const WebPage* found = services.pages.find(kViewer);
     if (found == nullptr) return problem(404, "there is no such page", request.id);
-    const std::span html = found->asset.bytes;
     const ModelRecord& record = model->record();
     const auto size = dimensions_of(record, model->manifest());
-    const std::string text(reinterpret_cast<const char*>(html.data()), html.size());
+    const std::string text(text_of(*found));
     Response response = revalidated(
         found->asset.type, with_texts(with_links(text, record, origin_of(request, services)),
                                       record, size ? to_text(*size) : ""));
@@ -102,13 +118,12 @@ static Response show_collection(const Request& request, Services& services) {
   const auto found =
       services.catalogue.search({.facets = {{"collection", name}}, .limit = kModelsInPage});
   if (!found) return internal_error(found.error(), request, services);
-  const WebPage* gallery = services.pages.find("/index.html");
+  const WebPage* gallery = services.pages.find(kGallery);
   if (found->models.empty() || gallery == nullptr)
     return problem(404, "there is no such collection", request.id);
-  const std::span html = gallery->asset.bytes;
   return revalidated(gallery->asset.type,
-                     with_collection({reinterpret_cast<const char*>(html.data()), html.size()},
-                                     name, found->models, origin_of(request, services)));
+                     with_collection(std::string(text_of(*gallery)), name, found->models,
+                                     origin_of(request, services)));
 }
 
 static Response show_docs(const Request& request, Services& services) {
@@ -165,7 +180,7 @@ static Response show_favicon(const Request& request, Services& services) {
 }
 
 static constexpr ApiRoute kPageRoutes[] = {
-    {.method = Method::kGet, .path = "/", .handler = show_gallery, .executor = Executor::kInline},
+    {.method = Method::kGet, .path = "/", .handler = show_gallery, .executor = Executor::kWorker},
     {.method = Method::kGet,
      .path = "/models/{id}",
      .handler = show_viewer,

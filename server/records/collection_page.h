@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes a collection in its page: in <head> for search engines, link previews and IIIF viewers,
-// in <body> for browsers without JavaScript.
+// Describes a collection, or all models, in its page: in <head> for search engines, link previews
+// and IIIF viewers, in <body> for browsers without JavaScript.
 #pragma once
 
 #include <span>
@@ -21,5 +21,10 @@ std::string collection_iiif_path(std::string_view collection);
 // a list of `models`, which the page's script replaces. `origin`: see origin_of().
 std::string with_collection(std::string html, std::string_view collection,
                             std::span<const ModelRecord> models, std::string_view origin);
+
+// Returns the page `html` (web/src/gallery/index.html) with a list of `models`, the newest of all,
+// which the page's script replaces. `origin`: see origin_of().
+std::string with_gallery(std::string html, std::span<const ModelRecord> models,
+                         std::string_view origin);
 
 }  // namespace vitrine::server

@@ -89,6 +89,10 @@ std::string DescribedModel::poster_url() const {
   return api_url(fmt::format("poster.png?width={}", kCanvasWidth));
 }
 
+std::string DescribedModel::card_poster_url() const {
+  return api_url("poster.png");
+}
+
 std::string DescribedModel::api_url(std::string_view file) const {
   return fmt::format("{}/api/v1/models/{}/{}", origin_, record_->id.to_string(), file);
 }

@@ -54,6 +54,7 @@ class DescribedModel {
   std::string permanent_url() const;
   std::string glb_url() const;
   std::string poster_url() const;
+  std::string card_poster_url() const;  // the poster of default width, as in `links` of a record
 
  private:
   std::string api_url(std::string_view file) const;

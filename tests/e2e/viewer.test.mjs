@@ -147,6 +147,17 @@ test("a page reads without JavaScript, and an address without an object says so"
     await page.setViewportSize({ width, height: 844 });
     await page.screenshot({ path: join(pictures, `no-script-${width}.png`) });
   }
+  await page.goto(daemon.url);
+  await page.getByRole("heading", { level: 1, name: "Collection" }).waitFor();
+  const cards = page.locator("#models li");
+  assert.equal(await cards.count(), 2);
+  for (const width of [1440, 390]) {
+    await page.setViewportSize({ width, height: 844 });
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
+    await page.screenshot({ path: join(pictures, `gallery-no-script-${width}.png`) });
+  }
+  await cards.getByRole("link", { name: "Demosthenes", exact: true }).click();
+  await page.getByRole("heading", { level: 1, name: "Demosthenes" }).waitFor();
   const answer = await page.goto(`${daemon.url}/models/01hf0000000000000000000000`);
   assert.equal(answer.status(), 404);
   await page.getByRole("link", { name: "To the collection" }).waitFor();

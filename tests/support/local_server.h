@@ -2,6 +2,8 @@
 // Serves a test's own routes in this process, with one thread for all connections.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <future>
 #include <iterator>
@@ -17,6 +19,14 @@
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {
+
+// Returns the bytes of a string literal, for a WebAsset.
+template <std::size_t kSize>
+consteval std::array<std::uint8_t, kSize - 1> bytes_of(const char (&text)[kSize]) {
+  std::array<std::uint8_t, kSize - 1> bytes{};
+  std::copy_n(text, bytes.size(), bytes.begin());
+  return bytes;
+}
 
 class LocalServer {
  public:
@@ -106,8 +116,11 @@ class LocalServer {
   using NoFaults = Expected<std::vector<std::string>>;
   static constexpr std::uint8_t kPlain[] = {'p', 'l', 'a', 'i', 'n'}, kPacked[] = {'g', 'z'};
   static constexpr std::string_view kHtml = "text/html; charset=utf-8";
+  // The elements of web/src/gallery/index.html into which the server inserts texts.
+  static constexpr auto kGallery =
+      bytes_of("<head><title></title></head><h1 id=\"title\"></h1><ul id=\"models\"></ul>");
   static constexpr WebAsset kPages[] = {{"/model.html", kHtml, {}},
-                                        {"/index.html", kHtml, {}},
+                                        {"/index.html", kHtml, kGallery},
                                         {"/console.html", kHtml, {}},
                                         {"/compare.html", kHtml, {}},
                                         {"/scan.html", kHtml, {}},

@@ -93,6 +93,48 @@ TEST_F(Pages, SearchEnginesFindThePublishedModelsOnly) {
   EXPECT_THAT(get("/sitemap.xml").body, Not(HasSubstr(id.to_string())));
 }
 
+class Gallery : public Pages {
+ protected:
+  ModelId publish_as(const std::string& title) {
+    return publish(server_.store(), server_.catalogue(), file_.bytes, {.title = title})->id;
+  }
+  test::HttpAnswer get_unless(const std::string& tag) {
+    return test::HttpClient(server_.port()).get("/", "If-None-Match: " + tag + "\r\n");
+  }
+
+  const test::TinyPmesh file_ = test::tiny_pmesh("the base", "a chunk");
+};
+
+TEST_F(Gallery, ListsThePublishedModelsInItsHtml) {
+  const std::string vase = publish_as("Vase <b>& jug</b>").to_string();
+  const ModelId draft = publish_as("Draft");
+  ASSERT_TRUE(server_.catalogue().set_state(draft, ModelState::kDraft));
+  const std::string html = get("/").body;
+  EXPECT_THAT(html, HasSubstr("<h1 id=\"title\">Collection</h1>"));
+  EXPECT_THAT(html, HasSubstr("<ul id=\"models\"><li><a href=\"/models/" + vase + "\">"));
+  EXPECT_THAT(html, HasSubstr("<h2>Vase &lt;b&gt;&amp; jug&lt;/b&gt;</h2>"));
+  EXPECT_THAT(html, HasSubstr("<img src=\"/api/v1/models/" + vase + "/poster.png\" "));
+  EXPECT_THAT(html, HasSubstr("/api/v1/iiif/collection.json\">"));
+  EXPECT_THAT(html, Not(HasSubstr(draft.to_string())));
+}
+
+TEST_F(Gallery, HasATagThatChangesWithItsModels) {
+  publish_as("Vase");
+  const std::string tag = get("/").field("etag");
+  EXPECT_EQ(get_unless(tag).status, 304);
+  publish_as("Jug");
+  const auto changed = get_unless(tag);
+  EXPECT_EQ(changed.status, 200);
+  EXPECT_NE(changed.field("etag"), tag);
+}
+
+TEST_F(Gallery, LeavesTheListToItsScriptIfItSearchesOrIfTheCatalogueFails) {
+  const std::string id = publish_as("Vase").to_string();
+  EXPECT_THAT(get("/?q=jug").body, Not(HasSubstr(id)));
+  sqlite::SqliteHandle(server_.data() / kCatalogueFile).run("ALTER TABLE model RENAME TO gone");
+  EXPECT_EQ(get("/").body, get("/index.html").body);
+}
+
 // A collection with one model and 10,000 newer copies of its record.
 class LargeCollection : public testing::Test {
  protected:
