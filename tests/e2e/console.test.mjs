@@ -311,6 +311,7 @@ test("the gallery is searched, and an object's page tells what is known and give
   await page.getByText("Holds the infant Dionysos.").waitFor();
   assert.equal(await page.getByRole("link", { name: "CC0-1.0" }).getAttribute("href"), "https://creativecommons.org/publicdomain/zero/1.0/");
   await page.getByText("± 0.05 mm").waitFor();
+  assert.equal(await page.locator("dd:has-text('CC0-1.0') svg[aria-hidden=true] path").count(), 2, "the symbols of CC and of zero");
   const about = page.locator("#about");
   await about.locator(".copyable").first().getByRole("button", { name: "Copy" }).click();
   await about.getByText("Copied").waitFor();
@@ -369,6 +370,8 @@ test("what a registrar enters stands on the object's page and narrows the galler
   assert.deepEqual(await shown.allTextContents(), ["Kore", "Kouros"]);
   await page.getByRole("link", { name: "Kore" }).click();
   await page.getByRole("link", { name: "No Known Copyright" }).waitFor();
+  const symbol = await page.locator("dd:has-text('No Known Copyright') svg[aria-hidden=true]").boundingBox();
+  assert.ok(symbol.width >= 14 && Math.abs(symbol.width - symbol.height) < 1, "the symbol of the statement");
   await page.getByText("mm (W × H × D)").waitFor();
   assert.equal(await page.getByRole("link", { name: "10.5281/zenodo.1" }).getAttribute("href"), "https://doi.org/10.5281/zenodo.1");
   assert.deepEqual(desk.complaints, []);

@@ -3,7 +3,7 @@
 // pages, until they are saved or discarded. Only changed fields are sent, so that the changes of two operators to different fields are
 // both kept.
 import { h } from "../ui/dom.ts";
-import { kLicences, kRightsStatements } from "../ui/rights.ts";
+import { kLicences, kRightsStatements, rightsLabel } from "../ui/rights.ts";
 import { texts as gallery } from "../ui/texts/index.ts";
 import { field, form, type Values } from "./forms.ts";
 import { Problem } from "./problem.ts";
@@ -107,7 +107,7 @@ export class MetadataForm {
     const text = (name: (typeof kTexts)[number]) => one(name, {
       ...(kParagraphs.includes(name) ? { type: "textarea" as const } : {}),
       ...(name === "licence" ? { suggestions: kLicences } : {}),
-      ...(name === "rights_statement" ? { options: [["", words.noStatement], ...kRightsStatements] as [string, string][] } : {}),
+      ...(name === "rights_statement" ? { options: statementsWith(contents[name]) } : {}),
     });
     return [...kTexts.map(text), one("unit", { options: units }), one("accuracy", { type: "number", step: "any", min: 0 }),
       one("public_max_level", { type: "number", min: 0, max: kMaxLevel })];
@@ -169,6 +169,12 @@ export class MetadataForm {
     this.#dropIfEmpty();
     await this.options.saved(names);
   }
+}
+
+/** Returns the choices of rights statements, with the present value, which may have another form of the address. */
+function statementsWith(uri: string): [string, string][] {
+  const all: [string, string][] = [["", words.noStatement], ...kRightsStatements.map(([known, name]): [string, string] => [known, name])];
+  return all.some(([known]) => known === uri) ? all : [...all, [uri, rightsLabel(uri)]];
 }
 
 function label(name: Name): string {

@@ -3,7 +3,8 @@
 import type { ModelRecord, MoreTexts } from "./api.ts";
 import { copyable, quotable } from "./copy.ts";
 import { h } from "./dom.ts";
-import { licenceMark, rightsLabel } from "./rights.ts";
+import { drawn, iconOfStatement, iconsOfLicence, type RightsIcon } from "./rights-icons.ts";
+import { rightsLabel } from "./rights.ts";
 import { count, date, measure, size, texts } from "./texts/index.ts";
 
 export function about(model: ModelRecord): Node[] {
@@ -62,8 +63,8 @@ function facts(model: ModelRecord): Fact[] {
     ...(doi ? [["doi", h("a", { href: `https://doi.org/${encodeURI(doi).replaceAll("#", "%23").replaceAll("?", "%3F")}`, rel: "noopener" }, doi)] as Fact] : []),
     ...(dimensions ? [["dimensions", texts.dimensions(measure(dimensions.width), measure(dimensions.height), measure(dimensions.depth), dimensions.unit)] as Fact] : []),
     ...named(["rights"]),
-    ...(statement ? [["rights_statement", h("a", { href: statement, rel: "license noopener" }, rightsLabel(statement))] as Fact] : []),
-    ...(model.licence ? [["licence", marked(model.licence)] as Fact] : []),
+    ...(statement ? [["rights_statement", marked(iconOfStatement(statement), h("a", { href: statement, rel: "license noopener" }, rightsLabel(statement)))] as Fact] : []),
+    ...(model.licence ? [["licence", marked(iconsOfLicence(model.licence), licence(model.licence))] as Fact] : []),
     ...(model.unit ? [["unit", texts.units[model.unit]] as Fact] : []),
     ...(model.accuracy === null ? [] : [["accuracy", `± ${measure(model.accuracy)} ${model.unit}`] as Fact]),
     ["detail", texts.amount(count(model.faces), size(model.bytes))],
@@ -86,16 +87,16 @@ function linked(text: string): Node | string {
  * such as CC-BY-4.0. Otherwise returns `text`.
  */
 function licence(text: string): Node | string {
-  const [, kind, version] = /^CC-(BY[A-Z-]*)-(\d\.\d)$/.exec(text) ?? [];
-  if (kind && version) return h("a", { href: `https://creativecommons.org/licenses/${kind.toLowerCase()}/${version}/`, rel: "license noopener" }, text);
+  const [, kind, version, place] = /^CC-(BY[A-Z-]*?)-(\d\.\d)(?:-([A-Z]+))?$/.exec(text) ?? [];
+  const path = [kind, version, place].filter(Boolean).join("/").toLowerCase();
+  if (path) return h("a", { href: `https://creativecommons.org/licenses/${path}/`, rel: "license noopener" }, text);
   if (text === "CC0-1.0") return h("a", { href: "https://creativecommons.org/publicdomain/zero/1.0/", rel: "license noopener" }, text);
   return linked(text);
 }
 
-/** Returns the licence. A Creative Commons licence gets its icon. */
-function marked(text: string): Node | string {
-  const mark = licenceMark(text);
-  return mark ? h("span", {}, h("span", { class: "cc", "aria-hidden": "true" }, mark), licence(text)) : licence(text);
+/** Returns the label with icons before it, if there are any. */
+function marked(icons: RightsIcon[], label: Node | string): Node | string {
+  return icons.length > 0 ? h("span", {}, drawn(icons), label) : label;
 }
 
 type Format = keyof typeof texts.formats;

@@ -29,15 +29,10 @@ export const kRightsStatements: readonly [uri: string, label: string][] =
   Object.entries(kStatements).map(([name, label]) => [`http://rightsstatements.org/vocab/${name}/1.0/`, label]);
 
 /**
- * Returns the label of a statement of RightsStatements.org, or the URI itself if the statement is
- * unknown.
+ * Returns the label of a statement of RightsStatements.org, given by its URI or the address of its page, or `uri` itself if the
+ * statement is unknown.
  */
 export function rightsLabel(uri: string): string {
-  return kRightsStatements.find(([known]) => known === uri.replace(/^https:/, "http:"))?.[1] ?? uri;
-}
-
-/** Returns the letters of the icon of a Creative Commons licence, such as "BY SA", or "" for other licences. */
-export function licenceMark(licence: string): string {
-  const [, terms] = /^CC-?(0|BY[A-Z-]*|PDM)-\d\.\d$/.exec(licence) ?? [];
-  return terms === "PDM" ? "PD" : (terms ?? "").replaceAll("-", " ");
+  const [, name = ""] = /^https?:\/\/(?:www\.)?rightsstatements\.org\/(?:vocab|page)\/([A-Za-z-]+)\/1\.0(?:[/?#]|$)/.exec(uri) ?? [];
+  return kRightsStatements.find(([known]) => known.endsWith(`/vocab/${name}/1.0/`))?.[1] ?? uri;
 }
