@@ -430,13 +430,14 @@ test("unsaved texts are not lost, and those of two operators are both kept", asy
   const { creator, material, provenance } = await record();
   assert.deepEqual([creator, material, provenance], ["Pythokritos", "marble", "Found in 1863.\n\nSamothrace."]);
   assert.deepEqual(Object.keys(sent.at(-1)).sort(), ["material", "provenance"], "only changed fields are sent");
-  await page.waitForFunction(() => document.querySelector(".form [type=submit]")?.disabled);
+  const nothingIsUnsaved = () => page.getByRole("button", { name: "Discard unsaved texts" }).waitFor({ state: "hidden" });
+  await nothingIsUnsaved();
 
   // A change that the form does not show, such as a note, is no conflict.
   await field("Material").fill("Parian marble");
   await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify({ presentation: { scale: 2 } }) });
   await save.click();
-  await page.waitForFunction(() => document.querySelector("[name=material]").closest("form").querySelector("[type=submit]").disabled);
+  await nothingIsUnsaved();
   assert.equal((await record()).material, "Parian marble");
   await page.reload(); // asks nothing, because all is saved
   await asked(`/models/${id}`, { method: "DELETE" });
