@@ -61,7 +61,7 @@ TEST_F(VitrineCommand, HelpOfACommandIsTheSameInBothForms) {
 
 TEST_F(VitrineCommand, HelpOfEveryCommandHasAnExampleOfIt) {
   const std::string help = vitrine({"--help"}).output;
-  const std::regex command("\n  ([a-z]+)  ");
+  const std::regex command("\n  ([a-z]+) +[A-Z]");
   std::size_t commands = 0;
   for (std::sregex_iterator found(help.begin(), help.end(), command), end; found != end; ++found) {
     const std::string name = (*found)[1];
