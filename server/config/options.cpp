@@ -396,7 +396,8 @@ constexpr std::array kOptions{
     Option{.key = "min-rate",
            .type = kBytes,
            .default_value = "256",
-           .doc = "Disconnect clients that receive fewer bytes per second than this, on average. 0 "
+           .doc = "Disconnect clients that receive fewer bytes per second than this, on average. For "
+                  "responses that count towards 'answer-memory', the least rate is 20000. 0 "
                   "disables the check.",
            .apply = number<&S::min_rate, 0, 1'000'000'000>},
     Option{
@@ -428,9 +429,10 @@ constexpr std::array kOptions{
            .type = kBytes,
            .default_value = "536870912",
            .doc = "Memory for responses that clients have not received yet; responses from files "
-                  "need none. A response that does not fit beside the others fails with 503. While "
-                  "over half is used, an address that is still receiving a response gets 503 for "
-                  "another. A response larger than this memory fails with 507.",
+                  "need none. A response that does not fit beside the others fails with 503. "
+                  "Responses to one address may take a quarter; the first may be larger. The last "
+                  "quarter is for addresses that take at most a 64th. A response larger than three "
+                  "quarters fails with 507.",
            .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "hosts",

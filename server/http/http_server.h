@@ -2,6 +2,7 @@
 // The HTTP/1.1 server: a listener, its connections, and the routes that it serves.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -42,8 +43,11 @@ struct HttpOptions {
   std::shared_ptr<LiveTls> tls = {};  // null if the server does not use TLS
   std::size_t max_connections_per_address = SIZE_MAX;
   Networks proxies = {};
-  std::uint32_t request_rate = 0;            // requests per second; see RateLimit
-  std::uint32_t min_rate = 0;                // bytes per second; see Pace
+  std::uint32_t request_rate = 0;  // requests per second; see RateLimit
+  std::uint32_t min_rate = 0;      // bytes per second; see Pace
+  // Minimum rate for bodies that BodiesInFlight counts, because they occupy memory until they are
+  // received. The larger of this and `min_rate` applies; neither does if `min_rate` is 0.
+  std::uint32_t min_memory_rate = 20'000;
   std::uint64_t answer_memory = UINT64_MAX;  // limit in bytes; see BodiesInFlight
 };
 
@@ -93,6 +97,13 @@ class HttpServer {
   void lasts_while(const Connection& connection, const std::optional<Caller>& caller,
                    ConnectionSet::MayContinue may_continue);
   Pace pace() const { return {idle_timeout_.load(std::memory_order_relaxed), options_.min_rate}; }
+  // Returns the limits for a response with this body.
+  Pace pace_of(const Body& body) const {
+    Pace result = pace();
+    if (result.min_rate > 0 && BodiesInFlight::counts(body))
+      result.min_rate = std::max(result.min_rate, options_.min_memory_rate);
+    return result;
+  }
 
  private:
   asio::awaitable<bool> accept_one();

@@ -63,8 +63,8 @@ asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchan
   const unsigned status = response.status;
   Body body = has_body ? std::move(response.body) : Body();
   const std::uint64_t size = body_size(body);
-  std::uint64_t sent =
-      co_await send_response(connection_, std::move(head), std::move(body), server_.pace());
+  const Pace pace = server_.pace_of(body);
+  std::uint64_t sent = co_await send_response(connection_, std::move(head), std::move(body), pace);
   const bool lasts = response.events && has_body;
   if (lasts) {
     server_.lasts_while(connection_, exchange.caller,
