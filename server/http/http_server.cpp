@@ -54,6 +54,12 @@ bool HttpServer::may_log_refusal(std::string_view address) {
   return false;
 }
 
+bool HttpServer::may_log_answer(std::string_view address) {
+  if (answer_log_ration_.take(network_of(address)).count() == 0) return true;
+  dependencies_.metrics.answers_not_logged.fetch_add(1, std::memory_order_relaxed);
+  return false;
+}
+
 void HttpServer::start() {
   const auto failed = [this](std::string_view fault) {
     dependencies_.events.event(Severity::kError, fault);

@@ -90,6 +90,8 @@ class HttpServer {
   // Returns whether one more refused request of this address may be logged. If not, counts the
   // request as not logged.
   bool may_log_refusal(std::string_view address);
+  // The same for a response from memory, which no rate limit has counted.
+  bool may_log_answer(std::string_view address);
   BodiesInFlight& bodies() { return *bodies_; }
   ConnectionSet& connections() { return connections_; }
   // Registers a long-lived response. The response ends within a second after the token of `caller`
@@ -123,6 +125,7 @@ class HttpServer {
   // Number of refusals that are logged per address and second.
   static constexpr std::uint32_t kLoggedRefusals = 10;
   RateLimit log_ration_{kLoggedRefusals};
+  RateLimit answer_log_ration_{options_.request_rate};
   const std::shared_ptr<BodiesInFlight> bodies_;
   std::atomic<std::chrono::seconds> idle_timeout_;
   asio::strand<asio::io_context::executor_type> strand_;  // guards the members below

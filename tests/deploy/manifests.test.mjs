@@ -68,6 +68,10 @@ test("the compose file's nginx is the configuration that ships, with another add
   for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));
 });
 
+test("the log of each service has a largest size", () => {
+  for (const [name, { logging }] of Object.entries(compose.services)) assert.match(logging?.options["max-size"] ?? "", /^\d+m$/, name);
+});
+
 test("the daemon accepts the settings of all services", () => {
   for (const name of ["serve", "build"]) assertTaken(compose.services[name].environment);
 });

@@ -421,6 +421,17 @@ TEST(Overload, ErrorsAndOptionsCountTowardsTheRateAndOtherAnswersFromMemoryDoNot
   }
 }
 
+// A visitor who needs many chunks must get them all, but must not fill the disk with log lines.
+TEST(Overload, AnswersFromMemoryBeyondTheRateAreSentButNotLogged) {
+  constexpr int kCalls = 2000;
+  test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {}, {.request_rate = 10});
+  test::HttpClient client(server.port());
+  for (int i = 0; i < kCalls; ++i)
+    EXPECT_EQ(client.get("/quick").status, 200);
+  EXPECT_GT(server.metrics().answers_not_logged.load(), 0u);
+  EXPECT_LE(server.metrics().answers_not_logged.load(), kCalls - 100u);
+}
+
 TEST(Overload, RefusedChangesAreAuditedByTheRationAndOthersAlways) {
   constexpr int kCalls = 2000;
   test::LocalServer server(kCrowdedRoutes);
