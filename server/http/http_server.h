@@ -40,6 +40,9 @@ struct HttpOptions {
   bool shortens_addresses = false;  // whether the logs name networks instead of addresses
   std::size_t max_connections = 1;
   std::chrono::seconds idle_timeout{30};
+  // Interval between two sweeps. A connection that may no longer continue must end within one
+  // second, which includes this interval, the age of cached data (100 ms) and the check.
+  std::chrono::milliseconds sweep_interval{500};
   std::shared_ptr<LiveTls> tls = {};  // null if the server does not use TLS
   std::size_t max_connections_per_address = SIZE_MAX;
   Networks proxies = {};
@@ -71,6 +74,10 @@ class HttpServer {
 
   // Stops accepting connections and ends the open ones (ConnectionSet::drain).
   void drain(std::function<void()> on_empty);
+
+  // Closes the connections whose deadline has passed, and checks the long-lived ones (lasts_while)
+  // in the background. start() makes this call periodic. Thread-safe.
+  void sweep();
 
   // Limits that may change while the server runs; see HttpOptions.
   struct Limits {
@@ -113,7 +120,6 @@ class HttpServer {
   void refuse(ByteStream& stream, ConnectionSet::Admission why);
   void refresh_certificate();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
-  void sweep();
   void end_forbidden();
 
   asio::io_context& io_;
