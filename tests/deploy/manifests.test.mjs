@@ -65,6 +65,7 @@ test("the compose file's nginx is the configuration that ships, with another add
   const conf = await readFile(join(root, "deploy/nginx/vitrine.conf"), "utf8");
   const [, from] = /sed 's\/([^/]+)\/serve:8080\/g'/.exec(compose.services.nginx.command.at(-1));
   assert.equal(conf.split(`server ${from};`).length, 3);
+  assert.match(compose.services.nginx.command.at(-1), /worker_connections 4096/);
   for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));
 });
 
