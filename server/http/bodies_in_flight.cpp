@@ -3,12 +3,6 @@
 
 namespace vitrine::server {
 
-bool BodiesInFlight::counts(const Body& body) {
-  const auto* shared = std::get_if<SharedBytes>(&body);
-  const bool is_static = shared != nullptr && shared->owner == nullptr;
-  return !std::holds_alternative<StoredBytes>(body) && !is_static && body_size(body) >= kSmall;
-}
-
 bool BodiesInFlight::has_room(std::uint64_t size, const std::string& network) const {
   const std::uint64_t max = max_bytes_;
   const auto found = of_network_.find(network);
@@ -61,7 +55,7 @@ void BodiesInFlight::count_less(std::uint64_t size, const std::string& network) 
 std::shared_ptr<const void> BodiesInFlight::admit(const Body& body, const std::string& network) {
   if (!counts(body)) return {std::shared_ptr<const void>(), this};
   const auto* shared = std::get_if<SharedBytes>(&body);
-  const std::uint64_t size = body_size(body);
+  const std::uint64_t size = body_memory(body);
   // The address of the owner is a key of shared_. This copy keeps the owner alive until leave(), so
   // that no other object can get the same address in the meantime.
   const auto owner = shared != nullptr ? shared->owner : nullptr;

@@ -23,7 +23,7 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
 
   // Admits a body for `network` (network_of()). The caller must keep the result until `body` is
   // sent. Returns null if the body does not fit in the memory limit. A text counts with its size.
-  // Shared memory counts once in total, and once for each network that receives it.
+  // Shared memory counts once in total, and once for each network that receives any of it.
   //
   // The bodies of a network may take a quarter of the limit. Its first body may be larger. The last
   // quarter of the limit is for networks whose bodies take at most a 64th of the limit, so that a
@@ -31,17 +31,18 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
   // Whether the body would be admitted if no other responses were being sent.
-  bool fits_alone(const Body& body) const { return body_size(body) <= without_reserve(max_bytes_); }
+  bool fits_alone(const Body& body) const {
+    return body_memory(body) <= without_reserve(max_bytes_);
+  }
 
-  // Whether the body counts. Stored bytes, static memory and bodies smaller than kSmall bytes do
-  // not count.
-  static bool counts(const Body& body);
+  // Whether the body counts. Bodies that occupy less than kSmall bytes of memory do not count.
+  static bool counts(const Body& body) { return body_memory(body) >= kSmall; }
 
   static constexpr std::uint64_t kSmall = 16 * 1024;
 
  private:
   struct Shared {
-    std::uint64_t bytes = 0;  // bytes counted for this memory: the size of the first sender's body
+    std::uint64_t bytes = 0;
     std::unordered_map<std::string, std::size_t> senders;  // number of bodies for each network
   };
   static std::uint64_t without_reserve(std::uint64_t max) { return max - max / 4; }

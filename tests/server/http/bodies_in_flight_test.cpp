@@ -93,6 +93,13 @@ TEST(BodiesInFlight, SharedMemoryCountsOnceWhateverOfItIsSent) {
   EXPECT_FALSE(bodies->admit(some_text(), kOther)) << "a part of it is still being sent";
 }
 
+TEST(BodiesInFlight, APartOfSharedMemoryCountsAsAllOfIt) {
+  const auto bodies = std::make_shared<BodiesInFlight>(4 * kSize);
+  const auto part = bodies->admit(body_range(shared(3 * kSize), 0, 1), kNetwork);
+  EXPECT_TRUE(part);
+  EXPECT_FALSE(bodies->admit(some_text(), kOther));
+}
+
 TEST(BodiesInFlight, WhatIsSmallOrStaticIsAlwaysAdmitted) {
   static const std::vector<std::uint8_t> bytes(kSize);
   const auto bodies = std::make_shared<BodiesInFlight>(2 * kSize);
