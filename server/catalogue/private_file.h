@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creates files and folders that only their owner can read.
+// Makes files and folders that only their owner can read.
 #pragma once
 
 #include <fcntl.h>
@@ -27,6 +27,15 @@ inline FileDescriptor create_private_file(const std::filesystem::path& path) {
 inline void ensure_private_file(const std::filesystem::path& path) {
   const FileDescriptor created(
       ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
+}
+
+// Takes the rights of other users to a file away. Has no effect if the file does not exist or
+// belongs to another user. Does not open the file, because closing it would end the locks that
+// SQLite holds on it.
+inline void make_private(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || status.st_uid != ::geteuid()) return;
+  if (S_ISREG(status.st_mode)) ::chmod(path.c_str(), S_IRUSR | S_IWUSR);
 }
 
 // Creates a folder that only its owner can enter, and its missing parents. Does not change a folder

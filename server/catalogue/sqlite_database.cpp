@@ -367,6 +367,8 @@ std::shared_ptr<sql::Database> newest_tables() {
 
 Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::path& file) {
   ensure_private_file(file);  // SQLite gives the files beside it the same permissions
+  for (const char* const ending : {"", "-wal", "-shm"})  // older daemons left them readable
+    make_private(file.string() + ending);
   try {
     auto database = std::make_shared<SqliteDatabase>(file.string());
     const auto connection = database->lease();

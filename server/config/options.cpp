@@ -339,8 +339,9 @@ constexpr std::array kOptions{
     Option{.key = "access-log",
            .type = kPath,
            .default_value = "-",
-           .doc = "File for the access log, one line per request. '-' is standard error; empty "
-                  "disables it.",
+           .doc =
+               "File for the access log, one line per request. '-' is standard error, whose size "
+               "'access-log-size' does not limit; empty disables the log.",
            .apply = path<&S::access_log>,
            .is_reloadable = true},
     Option{.key = "access-log-size",
@@ -391,13 +392,16 @@ constexpr std::array kOptions{
                "Requests per second allowed for each address (or IPv6 /64 network) and each token; "
                "ten times as many in a burst. Further requests get 429. Successful responses "
                "that need neither the catalogue nor a file, such as chunks of a model in "
-               "'model-cache', do not count. 0: no limit.",
+               "'model-cache', do not count, but the access log leaves out those beyond the same "
+               "rate. 0: no limit.",
            .apply = number<&S::request_rate, 0, 1'000'000>},
     Option{.key = "min-rate",
            .type = kBytes,
            .default_value = "256",
-           .doc = "Disconnect clients that receive fewer bytes per second than this, on average. 0 "
-                  "disables the check.",
+           .doc =
+               "Disconnect clients that receive fewer bytes per second than this, on average. For "
+               "responses that count towards 'answer-memory', the least rate is 20000. 0 "
+               "disables the check.",
            .apply = number<&S::min_rate, 0, 1'000'000'000>},
     Option{
         .key = "idle-timeout",
@@ -428,9 +432,10 @@ constexpr std::array kOptions{
            .type = kBytes,
            .default_value = "536870912",
            .doc = "Memory for responses that clients have not received yet; responses from files "
-                  "need none. A response that does not fit beside the others fails with 503. While "
-                  "over half is used, an address that is still receiving a response gets 503 for "
-                  "another. A response larger than this memory fails with 507.",
+                  "need none. A response that does not fit beside the others fails with 503. "
+                  "Responses to one address may take a quarter; the first may be larger. The last "
+                  "quarter is for addresses that take at most a 64th. A response larger than three "
+                  "quarters fails with 507.",
            .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "hosts",

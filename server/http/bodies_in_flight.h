@@ -22,34 +22,43 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   void set_capacity(std::uint64_t max_bytes) { max_bytes_ = max_bytes; }
 
   // Admits a body for `network` (network_of()). The caller must keep the result until `body` is
-  // sent. Returns null if the body does not fit in the memory limit. If the network already
-  // receives another body, the bodies of all networks together must fit in half of the limit. A
-  // text counts with its size. Shared memory counts once, even if several connections send it.
-  // Stored bytes, static memory and bodies smaller than kSmall bytes do not count.
+  // sent. Returns null if the body does not fit in the memory limit. A text counts with its size.
+  // Shared memory counts once in total, and once for each network that receives any of it.
+  //
+  // The bodies of a network may take a quarter of the limit. Its first body may be larger. The last
+  // quarter of the limit is for networks whose bodies take at most a 64th of the limit, so that a
+  // few networks cannot fill all of it.
   std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
   // Whether the body would be admitted if no other responses were being sent.
-  bool fits_alone(const Body& body) const { return body_size(body) <= max_bytes_; }
+  bool fits_alone(const Body& body) const {
+    return body_memory(body) <= without_reserve(max_bytes_);
+  }
+
+  // Whether the body counts. Bodies that occupy less than kSmall bytes of memory do not count.
+  static bool counts(const Body& body) { return body_memory(body) >= kSmall; }
 
   static constexpr std::uint64_t kSmall = 16 * 1024;
 
  private:
   struct Shared {
-    std::size_t senders = 0;
-    std::uint64_t bytes = 0;  // bytes counted for this memory: the size of the first sender's body
-    std::string network;      // the first sender's network
+    std::uint64_t bytes = 0;
+    std::unordered_map<std::string, std::size_t> senders;  // number of bodies for each network
   };
+  static std::uint64_t without_reserve(std::uint64_t max) { return max - max / 4; }
+
   // `owner` is null if the memory is not shared.
   bool enter(const void* owner, std::uint64_t size, const std::string& network);
   void leave(const void* owner, std::uint64_t size, const std::string& network);
-  void release(std::uint64_t size, const std::string& network);
+  // The caller of these functions must hold the lock.
+  bool has_room(std::uint64_t size, const std::string& network) const;
+  void count_less(std::uint64_t size, const std::string& network);
 
   std::atomic<std::uint64_t> max_bytes_;
   std::mutex mutex_;  // guards the members below
   std::uint64_t bytes_ = 0;
   std::unordered_map<const void*, Shared> shared_;
-  // Number of counted bodies of each network.
-  std::unordered_map<std::string, std::size_t> counted_;
+  std::unordered_map<std::string, std::uint64_t> of_network_;  // bytes that each network receives
 };
 
 }  // namespace vitrine::server

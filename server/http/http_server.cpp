@@ -9,10 +9,6 @@
 namespace vitrine::server {
 namespace {
 
-// Interval between two sweeps. A connection that may no longer continue must end within one second,
-// which includes this interval and the time for the check.
-constexpr std::chrono::milliseconds kSweepInterval{500};
-
 // Sends `text` without waiting for the peer. The text is lost if the socket cannot accept it at
 // once.
 void answer_at_once(ByteStream& stream, std::string_view text) {
@@ -54,6 +50,12 @@ bool HttpServer::may_log_refusal(std::string_view address) {
   return false;
 }
 
+bool HttpServer::may_log_answer(std::string_view address) {
+  if (answer_log_ration_.take(network_of(address)).count() == 0) return true;
+  dependencies_.metrics.answers_not_logged.fetch_add(1, std::memory_order_relaxed);
+  return false;
+}
+
 void HttpServer::start() {
   const auto failed = [this](std::string_view fault) {
     dependencies_.events.event(Severity::kError, fault);
@@ -67,7 +69,7 @@ void HttpServer::start() {
                  asio::detached);
   asio::co_spawn(strand_,
                  repeat(
-                     sweeper_, kSweepInterval, [this] { sweep(); }, failed),
+                     sweeper_, options_.sweep_interval, [this] { sweep(); }, failed),
                  asio::detached);
 }
 
@@ -113,9 +115,11 @@ asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) 
 }
 
 void HttpServer::sweep() {
-  connections_.sweep();
-  refresh_certificate();
-  end_forbidden();
+  asio::dispatch(strand_, [this] {
+    connections_.sweep();
+    refresh_certificate();
+    end_forbidden();
+  });
 }
 
 void HttpServer::lasts_while(const Connection& connection, const std::optional<Caller>& caller,

@@ -2,6 +2,7 @@
 // The HTTP/1.1 server: a listener, its connections, and the routes that it serves.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -39,11 +40,17 @@ struct HttpOptions {
   bool shortens_addresses = false;  // whether the logs name networks instead of addresses
   std::size_t max_connections = 1;
   std::chrono::seconds idle_timeout{30};
+  // Interval between two sweeps. A connection that may no longer continue must end within one
+  // second, which includes this interval, the age of cached data (100 ms) and the check.
+  std::chrono::milliseconds sweep_interval{500};
   std::shared_ptr<LiveTls> tls = {};  // null if the server does not use TLS
   std::size_t max_connections_per_address = SIZE_MAX;
   Networks proxies = {};
-  std::uint32_t request_rate = 0;            // requests per second; see RateLimit
-  std::uint32_t min_rate = 0;                // bytes per second; see Pace
+  std::uint32_t request_rate = 0;  // requests per second; see RateLimit
+  std::uint32_t min_rate = 0;      // bytes per second; see Pace
+  // Minimum rate for bodies that BodiesInFlight counts, because they occupy memory until they are
+  // received. The larger of this and `min_rate` applies; neither does if `min_rate` is 0.
+  std::uint32_t min_memory_rate = 20'000;
   std::uint64_t answer_memory = UINT64_MAX;  // limit in bytes; see BodiesInFlight
 };
 
@@ -68,6 +75,10 @@ class HttpServer {
   // Stops accepting connections and ends the open ones (ConnectionSet::drain).
   void drain(std::function<void()> on_empty);
 
+  // Closes the connections whose deadline has passed, and checks the long-lived ones (lasts_while)
+  // in the background. start() makes this call periodic. Thread-safe.
+  void sweep();
+
   // Limits that may change while the server runs; see HttpOptions.
   struct Limits {
     std::size_t max_connections = 1, per_address = SIZE_MAX;
@@ -86,6 +97,8 @@ class HttpServer {
   // Returns whether one more refused request of this address may be logged. If not, counts the
   // request as not logged.
   bool may_log_refusal(std::string_view address);
+  // The same for a response from memory, which no rate limit has counted.
+  bool may_log_answer(std::string_view address);
   BodiesInFlight& bodies() { return *bodies_; }
   ConnectionSet& connections() { return connections_; }
   // Registers a long-lived response. The response ends within a second after the token of `caller`
@@ -93,6 +106,13 @@ class HttpServer {
   void lasts_while(const Connection& connection, const std::optional<Caller>& caller,
                    ConnectionSet::MayContinue may_continue);
   Pace pace() const { return {idle_timeout_.load(std::memory_order_relaxed), options_.min_rate}; }
+  // Returns the limits for a response with this body.
+  Pace pace_of(const Body& body) const {
+    Pace result = pace();
+    if (result.min_rate > 0 && BodiesInFlight::counts(body))
+      result.min_rate = std::max(result.min_rate, options_.min_memory_rate);
+    return result;
+  }
 
  private:
   asio::awaitable<bool> accept_one();
@@ -100,7 +120,6 @@ class HttpServer {
   void refuse(ByteStream& stream, ConnectionSet::Admission why);
   void refresh_certificate();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
-  void sweep();
   void end_forbidden();
 
   asio::io_context& io_;
@@ -112,6 +131,7 @@ class HttpServer {
   // Number of refusals that are logged per address and second.
   static constexpr std::uint32_t kLoggedRefusals = 10;
   RateLimit log_ration_{kLoggedRefusals};
+  RateLimit answer_log_ration_{options_.request_rate};
   const std::shared_ptr<BodiesInFlight> bodies_;
   std::atomic<std::chrono::seconds> idle_timeout_;
   asio::strand<asio::io_context::executor_type> strand_;  // guards the members below

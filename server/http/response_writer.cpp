@@ -38,6 +38,11 @@ bool is_rationed(const Exchange& exchange, unsigned status) {
   return exchange.is_beyond_rate || (is_refused && is_change(exchange));
 }
 
+// Whether the response came from memory. No rate limit has counted such a request.
+bool is_from_memory(const Exchange& exchange) {
+  return !exchange.is_rated && !is_change(exchange);
+}
+
 }  // namespace
 
 asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchange& exchange) {
@@ -63,8 +68,8 @@ asio::awaitable<bool> ResponseWriter::write(const RequestHeader& request, Exchan
   const unsigned status = response.status;
   Body body = has_body ? std::move(response.body) : Body();
   const std::uint64_t size = body_size(body);
-  std::uint64_t sent =
-      co_await send_response(connection_, std::move(head), std::move(body), server_.pace());
+  const Pace pace = server_.pace_of(body);
+  std::uint64_t sent = co_await send_response(connection_, std::move(head), std::move(body), pace);
   const bool lasts = response.events && has_body;
   if (lasts) {
     server_.lasts_while(connection_, exchange.caller,
@@ -89,6 +94,7 @@ void ResponseWriter::record(const Exchange& exchange, const RequestHeader& reque
   const HttpDependencies& with = server_.dependencies();
   with.metrics.request(exchange.route_template, status, bytes, seconds.count());
   if (!has_line && exchange.is_beyond_rate) return;
+  if (is_from_memory(exchange) && !server_.may_log_answer(exchange.client.address)) return;
   const bool waits = with.access_log.access({.request_id = exchange.id,
                                              .remote = logged_address(exchange.client),
                                              .method = text(request.method_string()),

@@ -9,6 +9,12 @@ std::uint64_t body_size(const Body& body) {
   return std::get<StoredBytes>(body).length;
 }
 
+std::uint64_t body_memory(const Body& body) {
+  if (const auto* text = std::get_if<std::string>(&body)) return text->size();
+  const auto* shared = std::get_if<SharedBytes>(&body);
+  return shared != nullptr && shared->owner != nullptr ? shared->memory : 0;
+}
+
 Body body_range(Body body, std::uint64_t offset, std::uint64_t length) {
   if (auto* text = std::get_if<std::string>(&body)) return text->substr(offset, length);
   if (auto* shared = std::get_if<SharedBytes>(&body)) {

@@ -60,6 +60,9 @@ std::string Metrics::text() const {
   append_plain(text, "vitrine_refusals_not_logged_total", "counter",
                "Refused requests that the logs leave out, since their address had many.",
                refusals_not_logged.load(kRelaxed));
+  append_plain(text, "vitrine_answers_not_logged_total", "counter",
+               "Responses from memory that the log leaves out, since their address had many.",
+               answers_not_logged.load(kRelaxed));
   return text;
 }
 

@@ -38,6 +38,8 @@ class Metrics {
 
   // Number of refused requests that are not logged because their addresses had too many of them.
   std::atomic<std::uint64_t> refusals_not_logged{0};
+  // The same for responses from memory.
+  std::atomic<std::uint64_t> answers_not_logged{0};
 
   std::string text() const;
 

@@ -65,7 +65,12 @@ test("the compose file's nginx is the configuration that ships, with another add
   const conf = await readFile(join(root, "deploy/nginx/vitrine.conf"), "utf8");
   const [, from] = /sed 's\/([^/]+)\/serve:8080\/g'/.exec(compose.services.nginx.command.at(-1));
   assert.equal(conf.split(`server ${from};`).length, 3);
+  assert.match(compose.services.nginx.command.at(-1), /worker_connections 4096/);
   for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));
+});
+
+test("the log of each service has a largest size", () => {
+  for (const [name, { logging }] of Object.entries(compose.services)) assert.match(logging?.options["max-size"] ?? "", /^\d+m$/, name);
 });
 
 test("the daemon accepts the settings of all services", () => {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <mutex>
 #include <semaphore>
+#include <thread>
 
 #include "server/api/routes.h"
 #include "server/config/networks.h"
@@ -354,7 +355,7 @@ TEST(Overload, WhatChangesModelsOrUploadsWaitsForTheDiskApart) {
 
 TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
   const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
-                                 {.answer_memory = kLarge});
+                                 {.answer_memory = kLarge / 2 * 3});
   const auto ask = [&](const std::string& path) {
     auto reader = std::make_unique<test::HttpClient>(server.port());
     reader->send("GET " + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
@@ -374,6 +375,24 @@ TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
       EXPECT_EQ(ask(path)->receive(false).status, 200);
     }
     first->read_exactly(kLarge);
+  }
+}
+
+// The pauses between the reads are shorter than the idle timeout, and the client receives far more
+// than `min_rate`.
+TEST(Overload, AClientThatTakesAnAnswerFromMemoryTooSlowlyIsCutOff) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(1), {},
+                                 {.min_rate = 1, .min_memory_rate = 1'000'000'000});
+  for (const std::string path : {"/text", "/shared"}) {
+    test::HttpClient client(server.port());
+    client.send("GET " + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_THROW(
+        for (int i = 0; i < 300; ++i) {
+          client.read_exactly(100'000);
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        },
+        std::runtime_error)
+        << path;
   }
 }
 
@@ -400,6 +419,17 @@ TEST(Overload, ErrorsAndOptionsCountTowardsTheRateAndOtherAnswersFromMemoryDoNot
     EXPECT_EQ(answer.field("retry-after"), "1") << request;
     EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200) << request;
   }
+}
+
+// A visitor who needs many chunks must get them all, but must not fill the disk with log lines.
+TEST(Overload, AnswersFromMemoryBeyondTheRateAreSentButNotLogged) {
+  constexpr int kCalls = 2000;
+  test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {}, {.request_rate = 10});
+  test::HttpClient client(server.port());
+  for (int i = 0; i < kCalls; ++i)
+    EXPECT_EQ(client.get("/quick").status, 200);
+  EXPECT_GT(server.metrics().answers_not_logged.load(), 0u);
+  EXPECT_LE(server.metrics().answers_not_logged.load(), kCalls - 100u);
 }
 
 TEST(Overload, RefusedChangesAreAuditedByTheRationAndOthersAlways) {

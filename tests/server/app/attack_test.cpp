@@ -216,19 +216,31 @@ TEST_F(AttackTest, GuessingTokensIsSlowedDownWhileTheirOwnersGetOn) {
   EXPECT_EQ(client.get("/api/v1/jobs", own).status, 200);
 }
 
-// These requests cost the attacker little, and the daemon answers them from memory. Their log lines
-// must stay short.
-TEST_F(AttackTest, PipelinedUnknownPathsFillNoLog) {
-  constexpr int kRequests = 2'000;
-  constexpr std::size_t kTarget = 4'000;
-  const std::string request =
-      "GET /" + std::string(kTarget, '\xe9') + " HTTP/1.1\r\nHost: a\r\n\r\n";
-  HttpClient client(daemon.port());
-  for (int i = 0; i < kRequests; ++i) {
-    client.send(request);
-    EXPECT_EQ(client.receive().status, 404);
+// Requests that cost the attacker little, and that the daemon answers from memory. It logs about
+// 100 of them, and 10 more in each second. Their log lines must stay short, too.
+class FloodTest : public AttackTest {
+ protected:
+  FloodTest() : AttackTest({"--request-rate", "10", "--trusted-proxies", kLoopback}) {}
+
+  void flood(const std::string& path, const ::testing::Matcher<int>& status) {
+    constexpr std::size_t kRequests = 2'000, kMostLines = kRequests / 2, kLongestLine = 550;
+    const std::string request =
+        "GET " + path + " HTTP/1.1\r\nHost: a\r\nX-Forwarded-For: 192.0.2.1\r\n\r\n";
+    HttpClient client(daemon.port());
+    for (std::size_t i = 0; i < kRequests; ++i) {
+      client.send(request);
+      EXPECT_THAT(client.receive().status, status);
+    }
+    EXPECT_LT(daemon.access_log().size(), kMostLines * kLongestLine);
   }
-  EXPECT_LT(daemon.access_log().size(), kRequests * 550u);
+};
+
+TEST_F(FloodTest, UnknownPathsFillNoLog) {
+  flood("/" + std::string(4'000, '\xe9'), AnyOf(404, 429));
+}
+
+TEST_F(FloodTest, AKnownPathFillsNoLog) {
+  flood("/robots.txt?" + std::string(4'000, 'x'), 200);
 }
 
 }  // namespace

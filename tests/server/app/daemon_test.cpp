@@ -218,7 +218,8 @@ TEST_F(DaemonTest, MetricsTellWhatTheOperatorAsksAndDoNotGrowWithWhatVisitorsAsk
        {"\nvitrine_build_info{version=\"", "\nvitrine_streams 0\n", "\nvitrine_exports_made_total ",
         "\nvitrine_export_cache_bytes 0\n", "\nvitrine_jobs{state=\"queued\"} 0\n",
         "\nvitrine_jobs{state=\"cancelled\"} 0\n", "\nvitrine_data_free_bytes ",
-        "\nvitrine_disk_nearly_full 0\n", "\nvitrine_refusals_not_logged_total 0\n"}) {
+        "\nvitrine_disk_nearly_full 0\n", "\nvitrine_refusals_not_logged_total 0\n",
+        "\nvitrine_answers_not_logged_total 0\n"}) {
     EXPECT_THAT(text, HasSubstr(sample));
   }
   const auto before = lines();
