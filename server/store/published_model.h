@@ -67,6 +67,9 @@ class PublishedModel {
  private:
   friend class PublishedModels;
   PublishedModel() = default;
+  // Returns the error for a model whose file is damaged or missing.
+  static Unexpected damaged(const ModelRecord& record, std::string_view why);
+  static Expected<Manifest> read_manifest(const Object& file, const ModelRecord& record);
 
   ModelRecord record_;
   Manifest manifest_;
@@ -131,6 +134,14 @@ class PublishedModels {
   // known to be damaged, or the cache cannot hold the model. Reads the catalogue if the model is
   // not open.
   std::optional<Sha256> unopened(const ModelId& id, bool has_token);
+
+  // Returns the file from which find() serves the model, or find_whole() if `has_token` is true.
+  // Returns nullopt if that function would return null. Reads the catalogue, but opens no file.
+  // Fails if the catalogue cannot be read.
+  Expected<std::optional<Sha256>> file_of(const ModelId& id, bool has_token);
+
+  // Returns the geometry_hash() of a file that this process has opened before, otherwise nullopt.
+  std::optional<Sha256> known_geometry(const Sha256& file);
 
   // Makes the next call check the catalogue. Call this after this process has changed the
   // catalogue.
@@ -225,6 +236,7 @@ class PublishedModels {
   Expected<ModelPointer> open_newest(const Scope& scope, std::uint64_t revision);
   Expected<ModelPointer> open_file(ModelRecord record, std::uint64_t revision);
   Expected<void> reserve_copy(const ModelRecord& record);
+  void learn_geometry(const PublishedModel& model);
   void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
   // Whether the file was damaged at this revision. The caller holds the lock.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
@@ -262,6 +274,8 @@ class PublishedModels {
   // Files that are damaged or missing, each with the revision at which the fault was last found.
   // While the revision stays the same, requests do not read the file again.
   std::map<Sha256, std::uint64_t> damaged_;
+  std::unordered_map<Scope, std::optional<Sha256>, HashOfScope> files_;  // file_of() at revision_
+  std::unordered_map<Sha256, Sha256, HashOfHash> geometries_;  // geometry_hash() of opened files
   std::set<Sha256> too_large_;  // files of models that need more than max_bytes_
   // For each file: how often the intact file or a local copy of it was found damaged. damages_ is
   // the sum.
