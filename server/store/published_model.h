@@ -161,8 +161,14 @@ class PublishedModels {
   std::shared_ptr<const PublishedModel> cached_whole(const ModelId& id);
   std::optional<PublishedChunk> cached_chunk(const Sha256& sha256);
 
-  // Returns the block with this SHA-256 (file_blocks.h), if any published model has it.
+  // Returns the block with this SHA-256 (file_blocks.h), if any published model has it. If the file
+  // of one model is damaged, returns the block of another model.
   Expected<PublishedChunk> find_chunk(const Sha256& sha256);
+
+  // Returns the model in which find_chunk() looks for the block: one whose file is not known to be
+  // damaged, if there is one. Returns nullopt if no published model has the block. Reads the
+  // catalogue, but opens no file.
+  Expected<std::optional<ModelId>> model_with(const Sha256& chunk);
 
   // Reports that a stored file is damaged or missing. Models are not served from this file until
   // set_intact() is called, or until the file opens without a fault after a change of the

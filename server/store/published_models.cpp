@@ -16,6 +16,8 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::size_t kMaxOpenModels = 256;  // limit on cached models; each keeps a file open
+// At most this many models that share a chunk are tried until one has an intact file.
+constexpr int kMostOwners = 8;
 // How long cached models are served while the catalogue is unreachable.
 constexpr std::chrono::minutes kUnreachableFor{15};
 // If the catalogue takes longer to respond, it counts as unreachable.
@@ -553,16 +555,39 @@ std::optional<PublishedChunk> PublishedModels::cached_chunk(const Sha256& sha256
   return it->second;
 }
 
+Expected<std::optional<ModelId>> PublishedModels::model_with(const Sha256& chunk) {
+  std::optional<ModelId> first;
+  ModelId last;
+  for (int i = 0; i < kMostOwners; ++i) {
+    const auto location = catalogue_.find_chunk_after(chunk, last);
+    if (!location) return tl::unexpected(location.error());
+    if (!*location) break;
+    last = (*location)->model;
+    if (!first) first = last;
+    const auto file = file_of(last, false);
+    if (!file) return tl::unexpected(file.error());
+    const std::shared_lock lock(mutex_);
+    if (*file && !is_known_damaged(**file, revision_)) return last;
+  }
+  return first;
+}
+
 Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {
   if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
   {
     const std::shared_lock lock(mutex_);
     if (const auto it = chunks_.find(sha256); it != chunks_.end()) return it->second;
   }
-  const auto location = catalogue_.find_chunk(sha256);
-  if (!location) return tl::unexpected(location.error());
-  if (!*location) return PublishedChunk{};
-  const auto model = load({(*location)->model});
+  auto owner = model_with(sha256);
+  if (!owner) return tl::unexpected(owner.error());
+  if (!*owner) return PublishedChunk{};
+  auto model = load({**owner});
+  for (auto tried = *owner; !model && model.error().code == ErrorCode::kState; tried = *owner) {
+    owner = model_with(sha256);  // the file was found damaged, so prefers another model
+    if (!owner) return tl::unexpected(owner.error());
+    if (!*owner || *owner == tried) break;
+    model = load({**owner});
+  }
   if (!model) return tl::unexpected(model.error());
   // The model may have a new file by now, so the position is looked up in the manifest of that
   // file.
