@@ -13,9 +13,9 @@ std::optional<Opening> model_in_path(const Request& request, Services& services)
 }
 
 std::optional<Opening> model_of_chunk(const Request& request, Services& services) {
-  const auto place = services.catalogue.find_chunk(sha256_in(request));
-  if (!place || !*place) return std::nullopt;
-  return opening_of((*place)->model, /*has_token=*/false, services.models);
+  const auto model = services.models.model_with(sha256_in(request));
+  if (!model || !*model) return std::nullopt;
+  return opening_of(**model, /*has_token=*/false, services.models);
 }
 
 // Returns the model file that decides whether a visitor may see the scan. A caller with a token

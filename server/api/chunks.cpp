@@ -23,6 +23,16 @@ Response model_chunk(const std::shared_ptr<const PublishedModel>& model, const R
   return response;
 }
 
+// A cache that sends If-None-Match has a copy of the chunk. It must store this response in place of
+// the copy, because it would otherwise serve the withdrawn chunk whenever the daemon is
+// unreachable. Responses to other requests are not stored: made-up hashes would fill the cache.
+Response no_such_chunk(const Request& request) {
+  Response response = problem(404, "there is no such chunk", request.id);
+  const bool is_revalidation = request.header.count(beast::http::field::if_none_match) > 0;
+  if (is_revalidation) response.caching = Caching::kReplacesCopy;
+  return response;
+}
+
 }  // namespace
 
 // Serves most chunk requests without a worker thread. Looks for the chunk only in models that are
@@ -36,7 +46,7 @@ static std::optional<Response> show_cached_chunk(const Request& request, Service
 static Response show_chunk(const Request& request, Services& services) {
   auto chunk = services.models.find_chunk(sha256_in(request));
   if (!chunk) return internal_error(chunk.error(), request, services);
-  if (!chunk->model) return problem(404, "there is no such chunk", request.id);
+  if (!chunk->model) return no_such_chunk(request);
   return chunk_response(*chunk, request);
 }
 

@@ -49,7 +49,9 @@ class JobEvents final : public EventSource {
   bool ended() const override { return told_ && has_ended(told_->record.state); }
 
   // Reads the catalogue only if a model or the job's state has changed since the last check. If the
-  // catalogue cannot be read, the job counts as visible, and the next call checks it again.
+  // catalogue cannot be read, the job counts as visible, and the next call checks it again. Opens
+  // no file, because that may take long. If the model has a file that was not opened before, ends
+  // the connection; the client's next request opens the file.
   bool may_continue() override {
     if (!is_for_visitor_ || !run_) return true;
     const auto revision = services_.models.revision();
@@ -58,7 +60,7 @@ class JobEvents final : public EventSource {
     const Checked now{*revision, job.state};
     const std::scoped_lock lock(mutex_);
     if (checked_ == now) return true;
-    const auto visible = check_visibility(job, services_.scans, services_.models);
+    const auto visible = check_visibility_unopened(job, services_.scans, services_.models);
     if (visible && *visible) checked_ = now;
     return !visible || *visible;
   }

@@ -81,23 +81,23 @@ class OpenModels {
   }
 
   // Whether all models are current. Returns true at once if no model has changed and no file was
-  // found damaged since the last call. Finds damage without opening a file, because fetching a new
-  // copy may take long. If the catalogue or the store cannot be read, a model counts as current,
-  // because the cache still serves it; the next call checks it again.
+  // found damaged since the last call. Opens no file, because hashing or fetching it may take long,
+  // and other streams wait for the same thread. If the catalogue cannot be read, a model counts as
+  // current, because the cache still serves it; the next call checks it again.
   bool are_current(bool has_token, PublishedModels& cache) {
     const auto revision = cache.revision();
     if (!revision) return true;
     const auto models = unchecked(*revision);
     if (!models) return true;
-    bool are_all_found = true;
+    bool are_all_known = true;
     for (const StreamedModel& model : *models) {
-      if (cache.damages_of(model->record().file) != model->damages()) return false;
-      const FoundModel now = find_visible(model->record().id, has_token, cache).model;
-      const bool is_unknown = !now && now.error().code == ErrorCode::kIo;
-      if (!is_unknown && !is_current(*model, now)) return false;
-      if (is_unknown) are_all_found = false;
+      const ModelRecord& opened = model->record();
+      if (cache.damages_of(opened.file) != model->damages()) return false;
+      const auto file = cache.file_of(opened.id, has_token);
+      if (file && *file != opened.file) return false;
+      if (!file) are_all_known = false;
     }
-    if (are_all_found) set_checked(models, *revision);
+    if (are_all_known) set_checked(models, *revision);
     return true;
   }
 

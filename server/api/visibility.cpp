@@ -17,13 +17,43 @@ bool is_visible_without_model(const ScanInfo& scan) {
          (!job.model || !has_ended(job.state));
 }
 
-// Returns is_visible(scan, models). Fails with kIo if the catalogue or the store cannot be read.
-Expected<bool> check_visibility(const ScanInfo& scan, PublishedModels& models) {
+// Returns the geometry_hash() of the model as visitors see it, or nullopt if they do not see it.
+// Fails with kIo if the catalogue or the store cannot be read.
+using Geometry = Expected<std::optional<Sha256>>;
+
+Geometry shown_geometry(const ModelId& id, PublishedModels& models) {
+  const FoundModel shown = find_visible(id, false, models).model;
+  if (!shown && shown.error().code == ErrorCode::kIo) return tl::unexpected(shown.error());
+  if (!shown || !*shown) return std::nullopt;
+  return geometry_hash((*shown)->manifest());
+}
+
+// Like shown_geometry(), but opens no file. Also returns nullopt if the file was not opened before.
+Geometry known_geometry(const ModelId& id, PublishedModels& models) {
+  return models.file_of(id, false).map([&](const std::optional<Sha256>& file) {
+    return file ? models.known_geometry(*file) : std::nullopt;
+  });
+}
+
+using FindGeometry = Geometry(const ModelId& id, PublishedModels& models);
+
+// Returns is_visible(scan, models). Fails if `geometry_of` fails.
+Expected<bool> check_visibility(const ScanInfo& scan, PublishedModels& models,
+                                FindGeometry geometry_of) {
   if (!scan.entry.model) return is_visible_without_model(scan);
   if (!scan.entry.built) return false;
-  const FoundModel shown = find_visible(*scan.entry.model, false, models).model;
-  if (!shown && shown.error().code == ErrorCode::kIo) return tl::unexpected(shown.error());
-  return shown && *shown && geometry_hash((*shown)->manifest()) == *scan.entry.built;
+  const auto geometry = geometry_of(*scan.entry.model, models);
+  if (!geometry) return tl::unexpected(geometry.error());
+  return *geometry == scan.entry.built;
+}
+
+Expected<bool> check_visibility(const JobRecord& job, ScanService& scans, PublishedModels& models,
+                                FindGeometry geometry_of) {
+  if (!job.scan) return false;
+  const auto scan = scans.find(*job.scan);
+  if (!scan) return tl::unexpected(scan.error());
+  if (!*scan || (*scan)->entry.job != job.id) return false;
+  return check_visibility(**scan, models, geometry_of);
 }
 
 }  // namespace
@@ -50,15 +80,16 @@ std::optional<Opening> opening_of(const ModelId& id, bool has_token, PublishedMo
 }
 
 bool is_visible(const ScanInfo& scan, PublishedModels& models) {
-  return check_visibility(scan, models).value_or(false);
+  return check_visibility(scan, models, shown_geometry).value_or(false);
 }
 
 Expected<bool> check_visibility(const JobRecord& job, ScanService& scans, PublishedModels& models) {
-  if (!job.scan) return false;
-  const auto scan = scans.find(*job.scan);
-  if (!scan) return tl::unexpected(scan.error());
-  if (!*scan || (*scan)->entry.job != job.id) return false;
-  return check_visibility(**scan, models);
+  return check_visibility(job, scans, models, shown_geometry);
+}
+
+Expected<bool> check_visibility_unopened(const JobRecord& job, ScanService& scans,
+                                         PublishedModels& models) {
+  return check_visibility(job, scans, models, known_geometry);
 }
 
 bool is_visible(const JobRecord& job, ScanService& scans, PublishedModels& models) {

@@ -75,7 +75,7 @@ struct Snapshot {
 
 struct OpenObject {
   NamedFile file;
-  std::unique_ptr<Object> object;  // null if the object is missing
+  Expected<std::unique_ptr<Object>> object;  // null if it is missing, an error if it is damaged
 };
 
 // Objects open for reading. They stay readable even if the store removes them, so the store's lock
@@ -101,8 +101,8 @@ Expected<Objects> open_objects(const FileStore& store, const fs::path& snapshot,
   Objects objects;
   for (const NamedFile& file : *files) {
     auto object = store.open_unchecked(file.file);
-    if (!object) return tl::unexpected(object.error());
-    objects.push_back({file, std::move(*object)});
+    if (!object && object.error().code != ErrorCode::kState) return tl::unexpected(object.error());
+    objects.push_back({file, std::move(object)});
   }
   return objects;
 }
@@ -122,11 +122,12 @@ Expected<Objects> freeze(const fs::path& data, const fs::path& snapshot, BackupR
 // Adds an object to the archive. If the object is missing, unreadable or does not have its hash,
 // records the loss instead.
 Expected<void> add_object(Archive& archive, const OpenObject& open) {
-  if (open.object == nullptr) {
+  if (open.object && *open.object == nullptr) {
     archive.note_loss(open.file, "missing");
     return {};
   }
-  const auto bytes = open.object->read(0, open.object->size());
+  const auto bytes =
+      open.object.and_then([](const auto& object) { return object->read(0, object->size()); });
   if (!bytes || sha256(*bytes) != open.file.file) {
     archive.note_loss(open.file, "damaged");
     return {};
@@ -134,28 +135,37 @@ Expected<void> add_object(Archive& archive, const OpenObject& open) {
   return archive.add(object_path(open.file.file), *bytes);
 }
 
-// Adds the files of all scans. Skips files and folders whose names begin with a dot, because these
-// are being written or deleted.
-Expected<void> add_scans(Archive& archive, const fs::path& data) {
-  std::error_code error;
-  fs::recursive_directory_iterator at(data / "scans", error);
-  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-    const bool is_hidden = at->path().filename().string().starts_with('.');
-    if (is_hidden) at.disable_recursion_pending();
-    if (is_hidden || !fs::is_regular_file(at->symlink_status())) continue;
-    const auto bytes = read_file(at->path(), TarReader::kMaxFile);
-    // Skips a file that was removed during the backup.
-    if (!bytes && !fs::exists(at->path())) continue;
-    const std::string name = at->path().lexically_relative(data).generic_string();
-    if (!bytes) {
-      archive.report.damaged.push_back(fmt::format("{} cannot be read", name));
-      continue;
-    }
-    if (auto added = archive.add(name, *bytes); !added) return added;
+// Adds a file of a scan. Skips a file that was removed during the backup.
+Expected<void> add_scan_file(Archive& archive, const fs::path& data, const fs::path& file) {
+  const auto bytes = read_file(file, TarReader::kMaxFile);
+  const std::string name = file.lexically_relative(data).generic_string();
+  if (bytes) return archive.add(name, *bytes);
+  std::error_code unknown;
+  if (fs::symlink_status(file, unknown).type() != fs::file_type::not_found)
+    archive.report.damaged.push_back(fmt::format("{} cannot be read", name));
+  return {};
+}
+
+// Adds the files in a folder of scans and its subfolders. Lists files and folders in the report
+// that cannot be read. Skips files and folders whose names begin with a dot, because these are
+// being written or deleted.
+Expected<void> add_scans(Archive& archive, const fs::path& data, const fs::path& folder) {
+  std::error_code error, unknown;
+  fs::directory_iterator at(folder, error);
+  for (; !error && at != fs::directory_iterator(); at.increment(error)) {
+    if (at->path().filename().string().starts_with('.')) continue;
+    const fs::file_type type = at->symlink_status(unknown).type();
+    const bool may_be_file = type == fs::file_type::regular || type == fs::file_type::none;
+    Expected<void> added;
+    if (type == fs::file_type::directory) added = add_scans(archive, data, at->path());
+    if (may_be_file) added = add_scan_file(archive, data, at->path());
+    if (!added) return added;
   }
-  if (!error || error == std::errc::no_such_file_or_directory) return {};
-  return fail(ErrorCode::kIo, fmt::format("cannot read {}: {}; check the data folder",
-                                          (data / "scans").string(), error.message()));
+  if (error && error != std::errc::no_such_file_or_directory) {
+    archive.report.damaged.push_back(
+        fmt::format("{} cannot be read", folder.lexically_relative(data).generic_string()));
+  }
+  return {};
 }
 
 }  // namespace
@@ -171,7 +181,8 @@ Expected<BackupReport> back_up(const fs::path& data, const fs::path& file) {
   for (const OpenObject& object : *objects) {
     if (auto added = add_object(archive, object); !added) return tl::unexpected(added.error());
   }
-  if (auto added = add_scans(archive, data); !added) return tl::unexpected(added.error());
+  if (auto added = add_scans(archive, data, data / "scans"); !added)
+    return tl::unexpected(added.error());
   const auto faults = sqlite::find_faults(snapshot.file);
   if (!faults) return tl::unexpected(faults.error());
   for (const std::string& fault : *faults)

@@ -222,7 +222,13 @@ class Catalogue {
   virtual Expected<std::vector<std::string>> collections() = 0;
 
   // Returns the location of a chunk's bytes, or nullopt if no published model has the chunk.
-  virtual Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) = 0;
+  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) {
+    return find_chunk_after(chunk, ModelId());
+  }
+  // Like find_chunk(), but considers only models whose ID is greater than `after`. Returns the
+  // location in the model with the smallest ID.
+  virtual Expected<std::optional<ChunkLocation>> find_chunk_after(const Sha256& chunk,
+                                                                  const ModelId& after) = 0;
 
   // Returns the blocks that visitors can request of a published model. The result is empty if the
   // model is a draft or does not exist.

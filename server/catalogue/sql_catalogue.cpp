@@ -72,7 +72,7 @@ const std::string kFindSame = select_models(
     "AND more = ? ORDER BY id DESC LIMIT 1");
 const std::string kFindChunk =
     "SELECT model, \"offset\", length FROM chunk JOIN model ON model.id = chunk.model "
-    "WHERE sha256 = ? AND state = 1 LIMIT 1";
+    "WHERE sha256 = ? AND chunk.model > ? AND state = 1 ORDER BY chunk.model LIMIT 1";
 const std::string kPageCursors =
     "SELECT id FROM (SELECT id, row_number() OVER (ORDER BY id DESC) AS place, "
     "count(*) OVER () AS models FROM model WHERE state = 1) AS listed "
@@ -258,11 +258,12 @@ class SqlCatalogue final : public Catalogue {
     });
   }
 
-  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
+  Expected<std::optional<ChunkLocation>> find_chunk_after(const Sha256& chunk,
+                                                          const ModelId& after) override {
     using Found = std::optional<ChunkLocation>;
     return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Found> {
       const ScopedStatement row(connection.prepare(kFindChunk));
-      if (!row->bind(chunk).step()) return std::nullopt;
+      if (!row->bind(chunk).bind(after.bytes()).step()) return std::nullopt;
       return ChunkLocation{ModelId::from_bytes(row->blob<16>(0)),
                            {chunk, count(*row, 1), count(*row, 2)}};
     });

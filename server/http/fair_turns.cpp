@@ -19,11 +19,9 @@ FairTurns::Task::~Task() {
 }
 
 asio::awaitable<FairTurns::Turn> FairTurns::wait(std::string owner, std::string target) {
-  std::set<std::string> targets;
-  if (!target.empty()) targets.insert(target);
   auto task = std::make_shared<Task>(std::move(owner), std::move(target));
   asio::steady_timer timer(co_await asio::this_coro::executor);
-  const auto waiter = std::make_shared<Waiter>(Waiter{std::move(timer), task, std::move(targets)});
+  const auto waiter = std::make_shared<Waiter>(Waiter{std::move(timer), task});
   push(waiter);
   while (!begins(waiter)) {
     waiter->timer.expires_after(kRetryAfter);
@@ -56,7 +54,8 @@ bool FairTurns::begins(const std::shared_ptr<Waiter>& waiter) {
 void FairTurns::admit(const std::string& owner, OwnersTasks& tasks) {
   try {
     while (tasks.admitted < per_owner_ && !tasks.further.empty()) {
-      waiting_.push(owner, tasks.further.front());
+      const auto& next = tasks.further.front();
+      waiting_.push(owner, next, next->task->target);
       tasks.further.pop_front();
       ++tasks.admitted;
     }
@@ -76,14 +75,10 @@ void FairTurns::give_turns(const std::shared_ptr<Waiter>& here) {
 
 // Allocates no memory, so that no waiter is lost.
 std::shared_ptr<FairTurns::Waiter> FairTurns::take_next() {
-  const auto is_ready = [this](const std::shared_ptr<Waiter>& waiter) {
-    return !running_.contains(waiter->task->target);
-  };
   const std::scoped_lock lock(mutex_);
   if (free_ == 0 || is_stopped_) return nullptr;
-  auto next = waiting_.take(is_ready);
+  auto next = waiting_.take();
   if (!next) return nullptr;
-  running_.merge((*next)->targets);
   (*next)->task->turns = shared_from_this();
   --free_;
   return std::move(*next);
@@ -92,7 +87,7 @@ std::shared_ptr<FairTurns::Waiter> FairTurns::take_next() {
 void FairTurns::end(const Task& task) {
   {
     const std::scoped_lock lock(mutex_);
-    running_.erase(task.target);
+    waiting_.finish(task.target);
     ++free_;
     const auto found = tasks_of_.find(task.owner);
     OwnersTasks& tasks = found->second;

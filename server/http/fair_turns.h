@@ -8,7 +8,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -48,7 +47,6 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
   struct Waiter {
     asio::steady_timer timer;
     const std::shared_ptr<Task> task;
-    std::set<std::string> targets;  // the task's target; moved to `running_` when its turn begins
   };
   struct OwnersTasks {
     std::size_t admitted = 0;  // number of tasks that run or are in `waiting_`
@@ -66,7 +64,7 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
   // runs. The caller must not hold the lock.
   void give_turns(const std::shared_ptr<Waiter>& here);
   // Removes the next waiter from the queue and begins its turn. Returns null if no turn is free, or
-  // no waiter is ready.
+  // no waiter can begin.
   std::shared_ptr<Waiter> take_next();
   void end(const Task& task);
 
@@ -74,7 +72,6 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
   std::mutex mutex_;  // guards the members below
   std::size_t free_;
   bool is_stopped_ = false;
-  std::set<std::string> running_;  // targets of the running tasks
   std::map<std::string, OwnersTasks> tasks_of_;
   FairQueue<std::shared_ptr<Waiter>> waiting_;
 };

@@ -27,8 +27,8 @@ class Upgrade {
   virtual asio::awaitable<void> serve(UpgradedConnection upgraded, HttpServer& server) = 0;
 
   // Whether the client may still see the data that serve() sends. If not, the server asks the
-  // connection to end. Called about twice a second on a worker thread while serve() runs on another
-  // thread. May block.
+  // connection to end. Called about twice a second while serve() runs on another thread. May wait
+  // for the catalogue, but must not open a model's file: all connections are checked on one thread.
   virtual bool may_continue() { return true; }
 };
 

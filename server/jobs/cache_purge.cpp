@@ -71,8 +71,9 @@ void CachePurge::purge(const std::string& cache, const std::vector<Sha256>& chun
         answer ? fmt::format("it responds with {}", answer->status) : answer.error().message;
     return events_.event(
         Severity::kWarning,
-        fmt::format("cache {} was not purged: {}; it keeps withdrawn chunks for up to 3 "
-                    "minutes, and damaged ones until their file is repaired",
+        fmt::format("cache {} was not purged: {}; it serves withdrawn chunks for up to 3 minutes, "
+                    "longer while no daemon responds, and damaged ones until their file is "
+                    "repaired",
                     cache, fault));
   }
   if (!chunks.empty())

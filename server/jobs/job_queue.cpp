@@ -134,7 +134,7 @@ void JobQueue::post(const SharedRun& run) {
 // call of this function for each waiting job.
 JobQueue::SharedRun JobQueue::next_without_scanner() {
   const std::scoped_lock lock(mutex_);
-  return *without_scanner_.take([](const SharedRun&) { return true; });
+  return *without_scanner_.take();
 }
 
 Expected<std::optional<JobRecord>> JobQueue::begun_by(

@@ -27,8 +27,8 @@ class EventSource {
   // Whether next() has returned the last event.
   virtual bool ended() const = 0;
   // Whether the client may still see the events. If not, the server ends the connection. Called
-  // about twice a second on a worker thread while the connection calls the other functions. May
-  // block.
+  // about twice a second while the connection calls the other functions. May wait for the
+  // catalogue, but must not open a model's file: all connections are checked on one thread.
   virtual bool may_continue() { return true; }
 };
 

@@ -24,6 +24,8 @@ std::string_view cache_control(Caching caching) {
       return "no-cache";
     case Caching::kImmutable:
       return "public, max-age=31536000, immutable, s-maxage=120, stale-while-revalidate=60";
+    case Caching::kReplacesCopy:
+      return "public, max-age=0, s-maxage=1";
   }
   return "";
 }

@@ -22,6 +22,9 @@ enum class Caching {
   // The content of this URL never changes. Browsers keep it for a year. Shared caches revalidate it
   // after two minutes, because the content may be withdrawn (s-maxage of [RFC9111]; [RFC5861]).
   kImmutable,
+  // For a fault that replaces an earlier kImmutable response. Shared caches store it in place of
+  // their copy and revalidate it after one second; browsers, before each use.
+  kReplacesCopy,
 };
 
 struct Response {

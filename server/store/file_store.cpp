@@ -26,6 +26,27 @@ Unexpected refused(const char* what, const fs::path& path, const char* why) {
               fmt::format("cannot {} {}: {}; check the data folder", what, path.string(), why));
 }
 
+// Returns the error for an object whose file is damaged or cannot be opened.
+Unexpected damaged(const fs::path& path, const char* why) {
+  return fail(ErrorCode::kState, fmt::format("object {} is damaged{}; put it back with 'vitrine "
+                                             "repair'",
+                                             path.string(), why));
+}
+
+// Whether this errno of open(2) or stat(2) says that the store fails: this process lacks resources,
+// or a network file system does not respond. All others, such as EIO and EUCLEAN (a damaged inode),
+// concern only the file.
+bool is_fault_of_store(int error) {
+  constexpr int kFaults[] = {EMFILE, ENFILE, ENOMEM, EINTR, ENOTCONN, ESTALE, ETIMEDOUT};
+  return std::ranges::find(kFaults, error) != std::end(kFaults);
+}
+
+// Returns the error for a file of which open(2) or stat(2) failed with this errno.
+Unexpected unreadable(const fs::path& path, int error) {
+  if (is_fault_of_store(error)) return refused("open", path, std::strerror(error));
+  return damaged(path, fmt::format(": {}", std::strerror(error)).c_str());
+}
+
 // Returns the error for a full disk. The message does not contain the path, because clients that
 // upload can read the message.
 Unexpected full() {
@@ -127,6 +148,7 @@ Expected<std::optional<std::uint64_t>> FileStore::size_of(const Sha256& name) co
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) return static_cast<std::uint64_t>(status.st_size);
   if (errno == ENOENT) return std::nullopt;
+  if (!is_fault_of_store(errno)) return 0;
   return refused("look at", path, std::strerror(errno));
 }
 
@@ -140,7 +162,10 @@ Expected<void> FileStore::remove(const Sha256& name) {
 Expected<void> FileStore::begin_grace(const Sha256& name) {
   const fs::path path = path_of(name);
   if (::utimensat(AT_FDCWD, path.c_str(), nullptr, 0) == 0 || errno == ENOENT) return {};
-  return refused("keep", path, std::strerror(errno));
+  const int error = errno;
+  const auto object = open_unchecked(name);
+  if (!object && object.error().code == ErrorCode::kState) return {};  // no client can read it
+  return refused("keep", path, std::strerror(error));
 }
 
 Expected<std::size_t> FileStore::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
@@ -168,7 +193,7 @@ Expected<std::unique_ptr<Object>> FileStore::open_unchecked(const Sha256& name) 
   FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!fd && errno == ENOENT) return nullptr;
   struct stat status {};
-  if (!fd || ::fstat(fd.get(), &status) != 0) return refused("open", path, std::strerror(errno));
+  if (!fd || ::fstat(fd.get(), &status) != 0) return unreadable(path, errno);
   return object_in(std::move(fd), static_cast<std::uint64_t>(status.st_size));
 }
 
@@ -179,17 +204,14 @@ Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
   if (!object || *object == nullptr) return object;
   const auto stamp = stamp_of(**object);
   if (stamp && checked_->contains(name, *stamp)) return object;
-  if (!is_intact(**object, name)) {
-    return fail(ErrorCode::kState,
-                fmt::format("object {} is damaged; put it back with 'vitrine repair'",
-                            path_of(name).string()));
-  }
+  if (!is_intact(**object, name)) return damaged(path_of(name), "");
   if (stamp) checked_->add(name, *stamp);
   return object;
 }
 
 Expected<ObjectState> FileStore::check(const Sha256& name, const OnPiece& on_piece) const {
   const auto object = open_unchecked(name);
+  if (!object && object.error().code == ErrorCode::kState) return ObjectState::kDamaged;
   if (!object) return tl::unexpected(object.error());
   if (*object == nullptr) return ObjectState::kMissing;
   const auto stamp = stamp_of(**object);

@@ -26,7 +26,8 @@ class FileStore final : public ObjectStore {
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
 
   // Opens an object without checking its bytes, for callers that hash the bytes themselves. Returns
-  // null if the object does not exist.
+  // null if the object does not exist. Fails with kState if its file cannot be opened, and with kIo
+  // if the store fails.
   Expected<std::unique_ptr<Object>> open_unchecked(const Sha256& name) const;
 
  private:

@@ -69,6 +69,7 @@ class ObjectStore {
   virtual bool keeps_copies() const { return false; }
 
   // Returns the size of an object without opening it, or nullopt if the object does not exist.
+  // Returns 0 if its file is damaged so that it has no size. Fails with kIo if the store fails.
   virtual Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const = 0;
 };
 

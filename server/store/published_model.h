@@ -67,6 +67,9 @@ class PublishedModel {
  private:
   friend class PublishedModels;
   PublishedModel() = default;
+  // Returns the error for a model whose file is damaged or missing.
+  static Unexpected damaged(const ModelRecord& record, std::string_view why);
+  static Expected<Manifest> read_manifest(const Object& file, const ModelRecord& record);
 
   ModelRecord record_;
   Manifest manifest_;
@@ -132,6 +135,14 @@ class PublishedModels {
   // not open.
   std::optional<Sha256> unopened(const ModelId& id, bool has_token);
 
+  // Returns the file from which find() serves the model, or find_whole() if `has_token` is true.
+  // Returns nullopt if that function would return null. Reads the catalogue, but opens no file.
+  // Fails if the catalogue cannot be read.
+  Expected<std::optional<Sha256>> file_of(const ModelId& id, bool has_token);
+
+  // Returns the geometry_hash() of a file that this process has opened before, otherwise nullopt.
+  std::optional<Sha256> known_geometry(const Sha256& file);
+
   // Makes the next call check the catalogue. Call this after this process has changed the
   // catalogue.
   void refresh();
@@ -150,8 +161,14 @@ class PublishedModels {
   std::shared_ptr<const PublishedModel> cached_whole(const ModelId& id);
   std::optional<PublishedChunk> cached_chunk(const Sha256& sha256);
 
-  // Returns the block with this SHA-256 (file_blocks.h), if any published model has it.
+  // Returns the block with this SHA-256 (file_blocks.h), if any published model has it. If the file
+  // of one model is damaged, returns the block of another model.
   Expected<PublishedChunk> find_chunk(const Sha256& sha256);
+
+  // Returns the model in which find_chunk() looks for the block: one whose file is not known to be
+  // damaged, if there is one. Returns nullopt if no published model has the block. Reads the
+  // catalogue, but opens no file.
+  Expected<std::optional<ModelId>> model_with(const Sha256& chunk);
 
   // Reports that a stored file is damaged or missing. Models are not served from this file until
   // set_intact() is called, or until the file opens without a fault after a change of the
@@ -225,6 +242,7 @@ class PublishedModels {
   Expected<ModelPointer> open_newest(const Scope& scope, std::uint64_t revision);
   Expected<ModelPointer> open_file(ModelRecord record, std::uint64_t revision);
   Expected<void> reserve_copy(const ModelRecord& record);
+  void learn_geometry(const PublishedModel& model);
   void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
   // Whether the file was damaged at this revision. The caller holds the lock.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
@@ -262,6 +280,8 @@ class PublishedModels {
   // Files that are damaged or missing, each with the revision at which the fault was last found.
   // While the revision stays the same, requests do not read the file again.
   std::map<Sha256, std::uint64_t> damaged_;
+  std::unordered_map<Scope, std::optional<Sha256>, HashOfScope> files_;  // file_of() at revision_
+  std::unordered_map<Sha256, Sha256, HashOfHash> geometries_;  // geometry_hash() of opened files
   std::set<Sha256> too_large_;  // files of models that need more than max_bytes_
   // For each file: how often the intact file or a local copy of it was found damaged. damages_ is
   // the sum.

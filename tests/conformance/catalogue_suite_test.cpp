@@ -306,6 +306,16 @@ TEST_F(CatalogueSuite, TheStateOfAnAbsentModelCannotBeSet) {
   EXPECT_EQ(result.error().code, ErrorCode::kState);
 }
 
+TEST_F(CatalogueSuite, AChunkIsFoundInEachPublishedModelThatHasIt) {
+  add(model(3), {{digest(7), 300, 50}});
+  add(model(1), {{digest(7), 100, 50}});
+  add(model(2, "x", ModelState::kDraft), {{digest(7), 200, 50}});
+  EXPECT_EQ(catalogue_->find_chunk(digest(7)).value().value().model, id_of(1));
+  EXPECT_EQ(catalogue_->find_chunk_after(digest(7), id_of(1)).value().value().model, id_of(3));
+  EXPECT_FALSE(catalogue_->find_chunk_after(digest(7), id_of(3)).value());
+  EXPECT_FALSE(catalogue_->find_chunk_after(digest(8), ModelId()).value());
+}
+
 TEST_F(CatalogueSuite, AChunkThatTwoModelsShareIsFoundWhileOneIsPublished) {
   add(model(1), {{digest(7), 100, 50}});
   add(model(2), {{digest(7), 300, 50}});

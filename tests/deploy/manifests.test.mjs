@@ -61,10 +61,13 @@ test("everything that a service of the compose file refers to exists", () => {
   }
 });
 
-test("the compose file's nginx is the configuration that ships, with another address", async () => {
-  const conf = await readFile(join(root, "deploy/nginx/vitrine.conf"), "utf8");
-  const [, from] = /sed 's\/([^/]+)\/serve:8080\/g'/.exec(compose.services.nginx.command.at(-1));
-  assert.equal(conf.split(`server ${from};`).length, 3);
+test("the compose file's nginx is the configuration that ships, with other addresses", () => {
+  const [change] = compose.services.nginx.command.at(-1).split(" >");
+  const shipped = join(root, "deploy/nginx/vitrine.conf");
+  const conf = spawnSync("sh", ["-c", change.replace("/vitrine.conf", `'${shipped}'`)], { encoding: "utf8" }).stdout;
+  assert.equal(conf.split("server serve:8080;").length, 3);
+  assert.equal(conf.split("listen 8081;").length, 2);
+  for (const name of ["serve", "build"]) assert.equal(compose.services[name].environment.VITRINE_PURGE_URLS, "http://nginx:8081");
   assert.match(compose.services.nginx.command.at(-1), /worker_connections 4096/);
   for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));
 });

@@ -321,7 +321,34 @@ test("a copy is confirmed without content once its time is over, and gone after 
     while (status === 200);
     assert.equal(status, 404);
     assert.equal((await change("publish")).status, 200);
-    assert.deepEqual((await get(url, options)).body, first.body);
+    let now;
+    do now = await get(url, options);
+    while (now.status === 404);
+    assert.deepEqual(now.body, first.body);
+  } finally {
+    await front.stop();
+    await hasty.stop();
+  }
+});
+
+test("a withdrawn chunk stays gone while the origin is away, but the cache stores no other response 404", async () => {
+  const hasty = await OtherOrigin.start(daemon.port, 1);
+  const front = await Nginx.start([`127.0.0.1:${hasty.port}`]);
+  try {
+    const options = { ca: await readFile(front.certificate), agent: false };
+    const ask = (chunk) => get(`${front.url}/api/v1/chunks/${chunk}`, options);
+    const withdrawn = chunks.at(-1), unknown = "0".repeat(64);
+    assert.equal((await ask(withdrawn)).status, 200);
+    assert.equal((await change("unpublish")).status, 200);
+    while ((await ask(withdrawn)).status === 200);
+    assert.equal((await ask(unknown)).status, 404);
+    hasty.fault = 503;
+    let answer;
+    do answer = await ask(withdrawn);
+    while (answer.headers["x-cache"] !== "STALE");
+    assert.equal(answer.status, 404);
+    assert.equal((await ask(unknown)).status, 503);
+    assert.equal((await change("publish")).status, 200);
   } finally {
     await front.stop();
     await hasty.stop();

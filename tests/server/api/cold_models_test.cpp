@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests requests for a model whose file takes long to open.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <memory>
 #include <vector>
 
+#include "held_object.h"
 #include "server/api/routes.h"
 #include "server/store/publish.h"
 #include "support/local_server.h"
@@ -16,35 +14,6 @@
 
 namespace vitrine::server {
 namespace {
-
-namespace fs = std::filesystem;
-
-// Replaces an object by a FIFO, whose readers wait until release() is called.
-class HeldObject {
- public:
-  HeldObject(const fs::path& data, const Sha256& object) {
-    const std::string name = to_hex(object);
-    path_ = data / "objects" / name.substr(0, 2) / name.substr(2, 2) / name;
-    kept_ = data / "kept";
-    fifo_ = data / "fifo";
-    fs::rename(path_, kept_);
-    EXPECT_EQ(::mkfifo(path_.c_str(), 0600), 0);
-  }
-  ~HeldObject() { release(); }
-  HeldObject(const HeldObject&) = delete;
-  HeldObject& operator=(const HeldObject&) = delete;
-
-  // Restores the object, so that the waiting readers can continue.
-  void release() {
-    if (!fs::exists(kept_)) return;
-    fs::rename(path_, fifo_);
-    fs::rename(kept_, path_);
-    ::close(::open(fifo_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-  }
-
- private:
-  fs::path path_, kept_, fifo_;
-};
 
 using Clients = std::vector<std::unique_ptr<test::HttpClient>>;
 
@@ -70,7 +39,7 @@ TEST(ColdModels, RequestsThatWaitForOneModelDoNotDelayRequestsForAnother) {
                  ->id.to_string();
     };
     const std::string held = path_of(large), free = path_of(other);
-    HeldObject object(server.data(), sha256(large.bytes));
+    test::HeldObject object(server.data(), sha256(large.bytes));
     const Clients clients = crowd(server.port(), part == chunk ? chunk : held + part);
     EXPECT_EQ(test::http_get(server.port(), free + "/manifest").status, 200) << part;
     object.release();

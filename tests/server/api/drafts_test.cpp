@@ -57,6 +57,16 @@ TEST_F(Drafts, ADraftIsShownToWhoHasATokenAndNobodyMayKeepIt) {
   EXPECT_EQ(ask("/api/v1" + chunk_, viewer_).status, 404) << "that URL is for everybody's caches";
 }
 
+TEST_F(Drafts, AWithdrawnChunkIsReplacedInCachesThatHaveACopy) {
+  ASSERT_EQ(set("publish").status, 200);
+  const std::string tag = ask("/api/v1" + chunk_).field("etag");
+  ASSERT_EQ(set("unpublish").status, 200);
+  const HttpAnswer revalidated = ask("/api/v1" + chunk_, "If-None-Match: " + tag + "\r\n");
+  EXPECT_EQ(revalidated.status, 404);
+  EXPECT_EQ(revalidated.field("cache-control"), "public, max-age=0, s-maxage=1");
+  EXPECT_EQ(ask("/api/v1" + chunk_).field("cache-control"), "no-store");
+}
+
 TEST_F(Drafts, ADraftsChunksComeFromMemoryAsLongAsTheTokenIsInForce) {
   const auto& models = server_.services().models;
   ASSERT_EQ(ask(api_ + chunk_, viewer_).body, "a chunk");

@@ -17,11 +17,11 @@ namespace vitrine::test {
 namespace {
 
 // Subscribes to the events of `job` as a client does. Returns the source of the events.
-std::shared_ptr<EventSource> events_of(const JobId& job, Services& services) {
+std::shared_ptr<EventSource> events_of(const JobId& job, Services& services,
+                                       const std::optional<Caller>& caller = Caller{}) {
   const RequestHeader header{};
   const nlohmann::json body;
   const std::string form;
-  const std::optional<Caller> caller = Caller{};
   const std::string id = job.to_string();
   PathParameters parameters;
   parameters.add("id", id);
@@ -144,6 +144,24 @@ TEST_F(ResumedScan, ItsEventsEndForVisitorsWhenItsModelIsWithdrawn) {
   EXPECT_EQ(http_get(server_.port(), path()).status, 401);
   held_->open();
   read_until(viewer, R"("state":"done")");
+}
+
+TEST_F(ResumedScan, CheckingItsEventsOpensNoFile) {
+  Services& services = server_.services();
+  const auto events = events_of(entry().job, services, std::nullopt);
+  ASSERT_TRUE(events);
+  ModelRecord model = server_.catalogue().find(model_).value().value();
+  model.title = "B";
+  ASSERT_TRUE(server_.catalogue().update(model, std::nullopt));
+  services.models.refresh();
+  const std::uint64_t opened = services.models.misses;
+  EXPECT_TRUE(events->may_continue());
+  model = server_.catalogue().find(model_).value().value();
+  model.public_part = PublicPart{.max_level = 0, .file = Sha256{1}};
+  ASSERT_TRUE(server_.catalogue().update(model, std::nullopt));
+  services.models.refresh();
+  EXPECT_FALSE(events->may_continue());
+  EXPECT_EQ(services.models.misses, opened);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "held_object.h"
 #include "server/api/routes.h"
 #include "server/store/change.h"
 #include "support/damage_object.h"
@@ -160,6 +161,18 @@ TEST_F(OpenStreams, GoOnIfOnlyTextsChange) {
   WebSocketClient stream = open(id_);
   change("PATCH", id_, {{"title", "B"}});
   await_check();
+  expect_alive(stream);
+}
+
+// The changed model is no longer cached, but the check of its stream must not open its file.
+TEST_F(OpenStreams, AFileThatTakesLongToOpenDelaysTheEndOfNoStream) {
+  WebSocketClient stream = open(id_);
+  ModelRecord model = server_.catalogue().find(*ModelId::parse(id_)).value().value();
+  test::HeldObject held(server_.data(), model.file);
+  model.title = "B";
+  ASSERT_TRUE(server_.catalogue().update(model, std::nullopt));
+  await_check();
+  held.release();
   expect_alive(stream);
 }
 

@@ -238,23 +238,27 @@ TEST_F(BackupTest, AnEntryThatDoesNotBelongInABackupIsRefused) {
 }
 
 TEST_F(BackupTest, DamagedFilesAreListedAndTheRestIsSavedAndRestored) {
-  const ModelId sound = publish("Sound"), damaged = publish("Damaged"), lost = publish("Lost");
+  const ModelId sound = publish("Sound"), damaged = publish("Damaged"), lost = publish("Lost"),
+                unopened = publish("Unopened");
   const auto path_of = [&](const ModelId& id) {
     return object_path(installation.catalogue->find(id).value()->file);
   };
   write(data / path_of(damaged), slurp(data / path_of(damaged)) + "!");
   fs::remove(data / path_of(lost));
+  fs::remove(data / path_of(unopened));
+  fs::create_symlink(data / path_of(unopened), data / path_of(unopened));  // cannot be opened
   const auto saved = back_up(data, tar);
   ASSERT_TRUE(saved) << saved.error().message;
   EXPECT_THAT(
       saved->damaged,
       UnorderedElementsAre(path_of(damaged) + " of model " + damaged.to_string() + " is damaged",
+                           path_of(unopened) + " of model " + unopened.to_string() + " is damaged",
                            path_of(lost) + " of model " + lost.to_string() + " is missing"));
   const auto restored = restore(tar, path("again"));
   ASSERT_TRUE(restored) << restored.error().message;
-  EXPECT_EQ(restored->models, 3u);
+  EXPECT_EQ(restored->models, 4u);
   EXPECT_EQ(restored->files, saved->files);
-  EXPECT_EQ(restored->damaged.size(), 2u);
+  EXPECT_EQ(restored->damaged.size(), 3u);
   EXPECT_EQ(slurp(path("again") / path_of(sound)), slurp(data / path_of(sound)));
   EXPECT_FALSE(fs::exists(path("again") / path_of(damaged)));
   EXPECT_FALSE(fs::exists(path("again") / path_of(lost)));
@@ -271,6 +275,16 @@ TEST_F(BackupTest, AScanFileThatCannotBeReadIsListed) {
   EXPECT_THAT(saved->damaged, ElementsAre("scans/one/steps cannot be read"));
   ASSERT_TRUE(restore(tar, path("again")));
   EXPECT_EQ(slurp(path("again/scans/one/profiles")), "measured");
+}
+
+TEST_F(BackupTest, AFolderOfScansThatCannotBeReadIsListed) {
+  publish("Shown");
+  fs::remove_all(data / "scans");
+  fs::create_symlink(data / "scans", data / "scans");  // a symbolic link to itself
+  const auto saved = back_up(data, tar);
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_THAT(saved->damaged, ElementsAre("scans cannot be read"));
+  EXPECT_EQ(restore(tar, path("again")).value().models, 1u);
 }
 
 TEST_F(BackupTest, ADamagedCatalogueIsSavedAndListed) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "server/backup/backup.h"
+#include "server/backup/checksums.h"
 #include "server/backup/repair.h"
 #include "server/store/publish.h"
 #include "support/damage_object.h"
@@ -45,24 +46,29 @@ class MigrateFolder : public ::testing::Test {
 };
 
 TEST_F(MigrateFolder, DamagedAndMissingFilesAreListedAndTheOthersAreCopied) {
-  const Sha256 damaged = add("Damaged"), lost = add("Lost"), sound = add("Sound");
+  const Sha256 damaged = add("Damaged"), lost = add("Lost"), unopened = add("Unopened"),
+               sound = add("Sound");
   const fs::path tar = folder_.path() / "backup.tar";
   ASSERT_TRUE(back_up(folder_.path() / "from", tar));
   damage_object(folder_.path() / "from", damaged);
-  ASSERT_TRUE(from_.store->remove(lost));
+  for (const Sha256& name : {lost, unopened})
+    ASSERT_TRUE(from_.store->remove(name));
+  const fs::path loop = folder_.path() / "from" / object_path(unopened);
+  fs::create_symlink(loop, loop);                                          // cannot be opened
   from_ = open_installation({.folder = folder_.path() / "from"}).value();  // it has hashed no file
   const auto done = run();
   ASSERT_TRUE(done) << done.error().message;
-  EXPECT_EQ(done->models, 3u);
+  EXPECT_EQ(done->models, 4u);
   EXPECT_EQ(done->files, 1u);
   std::vector<std::pair<Sha256, ObjectState>> found;
   for (const DamagedFile& file : done->damaged)
     found.emplace_back(file.file.file, file.state);
   EXPECT_THAT(found, UnorderedElementsAre(std::pair(damaged, ObjectState::kDamaged),
+                                          std::pair(unopened, ObjectState::kDamaged),
                                           std::pair(lost, ObjectState::kMissing)));
   EXPECT_TRUE(to_.store->open(sound).value());
-  EXPECT_EQ(to_.catalogue->files()->size(), 3u);
-  EXPECT_EQ(repair(to_, copies_in_backup(tar))->repaired.size(), 2u);
+  EXPECT_EQ(to_.catalogue->files()->size(), 4u);
+  EXPECT_EQ(repair(to_, copies_in_backup(tar))->repaired.size(), 3u);
   EXPECT_TRUE(scrub(*to_.store, *to_.catalogue)->damaged.empty());
 }
 

@@ -42,21 +42,26 @@ class RepairTest : public ::testing::Test {
 };
 
 TEST_F(RepairTest, DamagedAndMissingObjectsComeBackFromABackup) {
-  const ModelId damaged = add(here_, "Damaged"), lost = add(here_, "Lost");
+  const ModelId damaged = add(here_, "Damaged"), lost = add(here_, "Lost"),
+                unopened = add(here_, "Unopened");
   add(here_, "Sound");
   ASSERT_TRUE(back_up(data_, tar_));
   PublishedModels daemon(*here_.store, *here_.catalogue, std::chrono::milliseconds(0));
   damage(object(data_, damaged));
-  fs::remove(object(data_, lost));
+  for (const ModelId& id : {lost, unopened})
+    fs::remove(object(data_, id));
+  fs::create_symlink(object(data_, unopened), object(data_, unopened));  // cannot be opened
   EXPECT_FALSE(daemon.find(damaged));
   EXPECT_FALSE(daemon.find(lost));
+  EXPECT_FALSE(daemon.find(unopened));
   const auto done = repair(here_, copies_in_backup(tar_));
   ASSERT_TRUE(done) << done.error().message;
-  EXPECT_EQ(done->objects, 3u);
-  EXPECT_EQ(done->repaired.size(), 2u);
+  EXPECT_EQ(done->objects, 4u);
+  EXPECT_EQ(done->repaired.size(), 3u);
   EXPECT_TRUE(done->damaged.empty());
   EXPECT_TRUE(daemon.find(damaged)) << "a daemon notices the repair";
   EXPECT_TRUE(daemon.find(lost));
+  EXPECT_TRUE(daemon.find(unopened));
   EXPECT_TRUE(scrub(*here_.store, *here_.catalogue)->damaged.empty());
 }
 

@@ -26,6 +26,16 @@ class Turns : public ::testing::Test {
                            server::asio::detached);
     run_what_is_ready();
   }
+  // Like begin(), but the turn ends at once and is only counted.
+  void pass(const std::string& owner, const std::string& target) {
+    auto in_turn = [this, owner, target]() -> server::asio::awaitable<void> {
+      co_await turns->wait(owner, target);
+      ++passed;
+    };
+    server::asio::co_spawn(server::asio::make_strand(io_), std::move(in_turn),
+                           server::asio::detached);
+    run_what_is_ready();
+  }
   void end(const std::string& task) {
     end_without_running_others(task);
     run_what_is_ready();
@@ -39,6 +49,7 @@ class Turns : public ::testing::Test {
 
   std::shared_ptr<server::FairTurns> turns;
   std::string order;  // the tasks in the order in which their turns began
+  int passed = 0;     // number of turns of pass()
 
  private:
   void run_what_is_ready() {

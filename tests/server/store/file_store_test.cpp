@@ -4,6 +4,7 @@
 #include "server/store/file_store.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <fstream>
@@ -69,6 +70,30 @@ TEST_F(FileStoreTest, AFolderThatCannotBeMadeIsNamed) {
   const auto store = FileStore::open(folder_.path() / "file" / "objects");
   ASSERT_FALSE(store);
   EXPECT_NE(store.error().message.find("file/objects"), std::string::npos);
+}
+
+TEST_F(FileStoreTest, AnObjectThatCannotBeOpenedIsDamaged) {
+  fs::create_directories(path().parent_path());
+  fs::create_symlink(path(), path());  // a symbolic link to itself
+  EXPECT_EQ(store_.open(name_).error().code, ErrorCode::kState);
+  EXPECT_EQ(store_.check(name_, [](std::uint64_t) { return true; }).value(), ObjectState::kDamaged);
+  EXPECT_EQ(store_.size_of(name_).value(), 0u);
+  EXPECT_TRUE(store_.begin_grace(name_)) << "its model can be removed";
+  EXPECT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, AnObjectIsNotDamagedBecauseTheProcessHasTooManyFilesOpen) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{.rlim_cur = 0, .rlim_max = before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  const auto opened = store_.open(name_);
+  const auto checked = store_.check(name_, [](std::uint64_t) { return true; });
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(opened.error().code, ErrorCode::kIo);
+  EXPECT_EQ(checked.error().code, ErrorCode::kIo);
 }
 
 TEST_F(FileStoreTest, ADamagedObjectIsReplacedWhenPutAgain) {

@@ -58,14 +58,15 @@ class FullCatalogue final : public test::CatalogueBefore {
   }
 };
 
-// Simulates a change of the catalogue by another client at a critical moment. find_chunk() calls
-// `change` after it has looked up the chunk, and before it returns the result.
+// Simulates a change of the catalogue by another client at a critical moment. find_chunk_after()
+// calls `change` after it has looked up the chunk, and before it returns the result.
 class HastyCatalogue final : public test::CatalogueBefore {
  public:
   HastyCatalogue(Catalogue& before, std::function<void()> change)
       : test::CatalogueBefore(before), change_(std::move(change)) {}
-  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
-    auto found = before_.find_chunk(chunk);
+  Expected<std::optional<ChunkLocation>> find_chunk_after(const Sha256& chunk,
+                                                          const ModelId& after) override {
+    auto found = before_.find_chunk_after(chunk, after);
     change_();
     return found;
   }

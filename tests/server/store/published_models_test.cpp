@@ -250,6 +250,31 @@ TEST_F(PublishedModelsTest, ADamagedFileIsReadOnceAndServedAgainOnceItIsMended) 
   EXPECT_TRUE(models_.damaged().empty());
 }
 
+TEST_F(PublishedModelsTest, AChunkComesFromAnotherModelIfTheFileOfOneIsDamaged) {
+  const auto add_with = [&](const std::string& base) {
+    const auto file = test::tiny_pmesh(base, "shared").bytes;
+    return std::pair(publish(store_, *catalogue_, file, {.title = base}).value().id, file);
+  };
+  const std::vector files = {add_with("one base"), add_with("another base")};
+  const Sha256 chunk = name_of("shared");
+  for (const std::size_t damaged : {0, 1}) {
+    const auto& [lost, bytes] = files[damaged];
+    const ModelId& intact = files[1 - damaged].first;
+    ASSERT_TRUE(store_.remove(sha256(bytes)));
+    PublishedModels models(store_, *catalogue_);
+    const auto found = models.find_chunk(chunk);
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_TRUE(found->model);
+    EXPECT_EQ(found->model->record().id, intact);
+    models.set_damaged(sha256(bytes));
+    EXPECT_EQ(models.model_with(chunk).value(), intact) << "it is opened before the request";
+    ASSERT_TRUE(store_.put(sha256(bytes), bytes));
+  }
+  for (const auto& [id, bytes] : files)
+    ASSERT_TRUE(store_.remove(sha256(bytes)));
+  EXPECT_EQ(models_.find_chunk(chunk).error().code, ErrorCode::kState);
+}
+
 TEST_F(PublishedModelsTest, AMendedFileIsServedAtOnceThoughTheCacheIsOlder) {
   PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
   const ModelId id = add("one");

@@ -46,8 +46,9 @@ class CatalogueBefore : public Catalogue {
     return before_.harvest(query);
   }
   Expected<std::vector<std::string>> collections() override { return before_.collections(); }
-  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
-    return before_.find_chunk(chunk);
+  Expected<std::optional<ChunkLocation>> find_chunk_after(const Sha256& chunk,
+                                                          const ModelId& after) override {
+    return before_.find_chunk_after(chunk, after);
   }
   Expected<std::vector<Sha256>> public_chunks(const ModelId& id) override {
     return before_.public_chunks(id);
