@@ -247,8 +247,8 @@ bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness
   return true;
 }
 
-// Bounds the piece, and then its parts one after the other. The parts wait on a stack of their own,
-// because a recursion would be as deep as the surface makes it.
+// Bounds the piece, and then its parts one after the other. Uses an explicit stack, because the
+// depth of a recursion would depend on the surface.
 void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   open_.push_back({piece, start, kUncut});
   while (!open_.empty()) {
