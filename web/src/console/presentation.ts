@@ -29,7 +29,7 @@ export interface EditorOptions {
   /** The element that contains the viewer. */
   stage: HTMLElement;
   signal: AbortSignal;
-  /** Stores the changes and returns the model as it is now, in a new viewer. Rejects if the daemon refuses them. */
+  /** Stores the changes, shows the model in a new viewer and returns its new record. Rejects if the daemon refuses the changes. */
   save(changes: Placed): Promise<ModelRecord>;
   /** Returns the present poster. */
   poster(): Promise<Blob>;
@@ -38,7 +38,7 @@ export interface EditorOptions {
 const kAxes: Record<"x" | "y" | "z", Vector> = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const kPlain: Presentation = { rotation: [0, 0, 0, 1], scale: 1, view: null, poster: null, light: null };
 
-const drafts = new Map<string, Placed>(); // unsaved changes by the model's ID
+const drafts = new Map<string, Placed>(); // ID of a model -> its unsaved changes
 addEventListener("beforeunload", (event) => drafts.size > 0 && event.preventDefault());
 
 export class PresentationEditor {
@@ -89,7 +89,7 @@ export class PresentationEditor {
     this.element = h("div", { class: "presentation" }, this.#restored, this.#form);
   }
 
-  /** Edits this state of the model. Continues with its unsaved changes, if there are any. */
+  /** Shows the values of a model in the editor. Continues with the unsaved changes of this model, if there are any. */
   show({ id, unit, presentation }: ModelRecord): void {
     this.#id = id;
     this.#saved = { unit, presentation };
