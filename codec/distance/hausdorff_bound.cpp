@@ -327,8 +327,8 @@ ClosestTriangle HausdorffBound::search(const Vec3& p, std::uint32_t hint) {
 }
 
 // Counts one unit of work. Lowers the precision after a certain amount of work. The total time is
-// therefore bounded, even if the surfaces cross or coincide. Starts from limit(), because a
-// precision finer than the largest known distance would save no work.
+// therefore bounded, even if the surfaces cross or coincide. The new precision is a multiple of
+// limit(), because a precision finer than limit() would save no work.
 void HausdorffBound::spend() {
   const std::size_t most = (kWork + target_->size()) / (is_coarse_ ? kLaterWork : 1);
   if (++spent_ <= most) return;
