@@ -41,7 +41,7 @@ inline void cut(HalfEdges& edges, std::uint32_t half_edge) {
 
 struct Chart {
   std::vector<std::uint32_t> faces;  // indices of the chart's faces in the mesh
-  HalfEdges edges;                   // half-edges of the faces, which are numbered from 0
+  HalfEdges edges;                   // opposite half-edges; face f is the mesh's face faces[f]
   std::vector<Triangle> wedges;      // for each face, the wedge numbers of its corners
   std::vector<Vec3> positions;       // position of each wedge in space
   std::vector<Vec2> uv;              // position of each wedge in the plane

@@ -16,8 +16,10 @@
 namespace vitrine::inline codec {
 namespace {
 
-// From this round on, bad faces are cut out without their neighbours.
+// Each round divides the charts whose flattening failed. From this round on, bad faces are cut out
+// without their neighbours.
 constexpr int kSingleFaceRound = 8;
+// After this number of rounds, each face of a chart that still fails becomes a chart of its own.
 constexpr int kRounds = 12;
 // Charts with a larger doubled genus are first divided into halves, because the time to cut handles
 // grows with their number.

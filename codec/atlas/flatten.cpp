@@ -44,7 +44,7 @@ void keep_area(Chart& chart) {
   scale(chart, std::sqrt(area_in_space(chart) / plane));
 }
 
-// Lowers the energy of a chart by moving one wedge at a time.
+// Lowers the symmetric Dirichlet energy of a chart by moving one wedge at a time.
 class Relaxation {
  public:
   explicit Relaxation(Chart& chart) : chart_(chart), corners_(chart.positions.size()) {

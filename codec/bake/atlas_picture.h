@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of the display atlas under construction. Records for each texel how much of it charts
-// cover.
+// A picture of the display atlas under construction. Stores, for each texel, the share of the texel
+// that charts cover.
 #pragma once
 
 #include <array>

@@ -10,15 +10,15 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr std::uint8_t kStandard = 0;  // variant of the edgebreaker method
+constexpr std::uint8_t kStandard = 0;  // the only variant of the edgebreaker method that is read
 
 // How a new face adjoins the part of the surface that is already built: the symbols of
 // [Rossignac99].
 enum Symbol : std::uint32_t { kC = 0, kS = 1, kL = 3, kR = 5, kE = 7 };
 
 // A boundary edge of the face `source` to which a later face, `join`, is glued. `join` has the
-// symbol S. Such edges occur on surfaces with handles or boundary loops. Both members are indices
-// of symbols, counted from the last symbol.
+// symbol S. Such edges occur on surfaces with handles or boundary loops. `source` and `join` are
+// indices of symbols, counted from the last symbol.
 struct LateEdge {
   std::uint32_t source = 0, join = 0;
   // If true, the edge is opposite to the second corner of `source`; if false, to the third corner.

@@ -139,7 +139,7 @@ void report_materials(const Texturing& texturing, std::vector<std::string>& line
   report("roughness of ", [](const Material& material) { return !has_plain_roughness(material); });
   report("emission of ", [](const Material& material) {
     const auto& [r, g, b, opacity] = material.base_colour;
-    // A black material has given its emission to the vertex colours.
+    // The emission of a black material is not lost: it became the vertex colour.
     const bool is_black = to_srgb({r, g, b}) == Colour{0, 0, 0};
     return material.emission != Vec3{} && !is_black;
   });

@@ -39,8 +39,8 @@ class Snapping {
     }
   }
 
-  // Moves wedges until every face has a quality() above kGood. Returns false if that fails.
-  // On one scan, a coarser lattice without this bound left the packed picture almost empty.
+  // Moves wedges until every face has a quality() above kGood. Returns false if that fails. Without
+  // this check, a lattice that was too coarse for one scan left its packed picture almost empty.
   bool mend() {
     for (int sweep = 0; sweep < kMendingSweeps; ++sweep) {
       bool is_good = true;

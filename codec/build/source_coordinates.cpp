@@ -159,9 +159,9 @@ class SourcePass {
     return std::isfinite(value[0]) && std::isfinite(value[1]);
   }
 
-  // Codes whether the corner c has the same coordinates as one of three candidates, and as which
-  // one. The candidates are already coded corners at the same vertex: two in the faces across the
-  // two edges at c, and the corner coded last at this vertex.
+  // Codes which of three candidates has the same coordinates as the corner c, if any does. The
+  // candidates are already coded corners at the same vertex: two in the faces across the two edges
+  // at c, and the corner coded last at this vertex.
   std::optional<TextureCoordinates> code_candidate(std::size_t set, Corner c) {
     const std::array<Corner, 3> candidates = {at_vertex(next(c), true), at_vertex(prev(c), false),
                                               last_at_[set][mesh_.vertex(c)]};
@@ -208,8 +208,8 @@ class SourcePass {
   }
 
   const Connectivity& mesh_;
-  // Number of corners of real faces. The faces that close boundary loops have the corners after
-  // these.
+  // Number of corners of real faces. Corners from this number on belong to the faces that close
+  // boundary loops.
   const Corner corners_;
   Texturing& texturing_;
   Coder& coder_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes the materials and texture coordinates of a source mesh's faces without loss
 // (codec/FORMAT.md section 8.6). Neighbouring faces mostly have equal coordinates at their common
-// vertices. Coding such a corner takes far less than one bit. Other coordinates are predicted.
+// vertices. Equal coordinates take far less than one bit. Other coordinates are predicted.
 #pragma once
 
 #include <array>

@@ -38,7 +38,8 @@ target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr
 # They load at random addresses, and their relocation tables are read-only. Modules that ARCHITECTURE.md
 # marks (hot) do not check indices.
 # Tests are compiled without optimisation, which _FORTIFY_SOURCE needs, and sanitizers have checks
-# of their own. Both therefore get none of these options. tests/bench/hardening measures the cost.
+# of their own. Tests and sanitised builds therefore get none of these options.
+# tests/bench/hardening measures the cost.
 option(VITRINE_HARDENED "Compile with protections against memory faults; turn off only to measure their cost" ON)
 add_library(vitrine_hardened INTERFACE)
 add_library(vitrine_hardened_with_indices INTERFACE)

@@ -194,8 +194,8 @@ class AtlasPass {
 
   const Connectivity& mesh_;
   const std::vector<Vec3i>& positions_;
-  // Number of corners of real faces. The faces that close boundary loops have the corners after
-  // these.
+  // Number of corners of real faces. Corners from this number on belong to the faces that close
+  // boundary loops.
   const Corner corners_;
   const BaseAtlas& truth_;
   Coder& coder_;

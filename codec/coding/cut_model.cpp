@@ -35,7 +35,8 @@ struct RingArrays {
 
   static constexpr std::size_t kSize = kMaxSplitValence + 1;
   std::array<double, kSize> x, y, z, length, valence, is_virtual;
-  std::array<double, kSize> real, square;  // 1 and the squared length, or 0 for a virtual vertex
+  // `real` is 1 and `square` is the squared length; both are 0 for a virtual vertex
+  std::array<double, kSize> real, square;
   // The value of feature 0, indexed by the number of faces that the new vertex takes.
   std::array<double, kSize> valences;
 };

@@ -98,7 +98,7 @@ class DisplacementModel {
   const Weights& normal_weights(std::size_t kind) const { return kinds_[kind].normal; }
   const auto& evidence() const { return evidence_; }
   const ResidualCoder& residuals() const { return coder_; }
-  static constexpr double kPriorWeight = 60;  // weight of the start values, in splits
+  static constexpr double kPriorWeight = 60;  // the start values count like this number of splits
 
  private:
   // Rows have an even size, so that they can be processed two elements at a time.
@@ -113,7 +113,8 @@ class DisplacementModel {
   Vec3 combine(const SplitSurroundings& s, const FeatureColumns& columns) const;
 
   struct ErrorGaussian {
-    std::array<Vec3, 3> frame;  // unit vectors along the prediction, the normal and across both
+    // unit vectors: along the prediction, along the normal, and perpendicular to both
+    std::array<Vec3, 3> frame;
     std::array<double, 3> variance{};  // along the axes of the frame, in units of scale squared
     double bias = 0;                   // mean error along the prediction, in units of scale
   };

@@ -93,7 +93,8 @@ class LayerPass {
   Unexpected damaged(const char* what) const { return damaged_chunk(frame_, what); }
 
   // Codes the low bits of the positions if the level's lattice is finer than the previous level's.
-  // All bit values have equal probability, because a cell is about as large as the level's error.
+  // Codes them without a model: cells are about as large as the previous level's error, so 0 and 1
+  // are equally likely.
   void refine_lattice() {
     mesh_.shift = frame_.shift, mesh_.foreign_shift = frame_.shift_before;
     const auto bits = static_cast<int>(frame_.shift_before - frame_.shift);

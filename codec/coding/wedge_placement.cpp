@@ -96,7 +96,7 @@ class SplitPlacement {
   }
 
  private:
-  static constexpr std::size_t kSpokes = 32;  // usual maximum for both vertices together
+  static constexpr std::size_t kSpokes = 32;  // usual maximum number of spokes at v and w together
 
   // Returns all wedges at v and w. The two parts of a wedge that the split has divided form one
   // entry.
@@ -145,7 +145,8 @@ class SplitPlacement {
     }
   }
 
-  // Collects the triangles that were around the vertex before the split.
+  // Computes area_ from the triangles that were around the vertex before the split, and adds their
+  // corners to map_.
   void measure() {
     map_ = {};
     area_ = 0;
@@ -282,7 +283,8 @@ class Relaxation {
     }
   }
 
-  // Finds the edges from v to its ring in space. Skips edges to virtual vertices.
+  // Stores in edges_ the vectors from v to its ring vertices, in space. The vector to a virtual
+  // vertex is zero.
   void find_edges(VertexId v) {
     edges_.clear();
     const Vec3i centre = mesh_.positions[v];
@@ -326,7 +328,7 @@ class Relaxation {
   MeshState& mesh_;
   const ChunkSplits& chunk_;
   std::vector<Spoke> spokes_;             // spokes of the vertex whose stars are being collected
-  std::vector<Vec3> edges_;               // per spoke: the edge to its next vertex, in space
+  std::vector<Vec3> edges_;               // per spoke: the vector in space to its next vertex
   std::vector<Star> stars_;               // stars of the block, in the order of improvement
   std::vector<StarTriangle> triangles_;   // triangles of all stars
   std::vector<EnergyTriangle> energies_;  // energies of the star that is being improved

@@ -43,7 +43,7 @@ class TaskQueue {
 
   const std::size_t most_weight_;
   std::mutex mutex_;
-  std::condition_variable changed_;  // a task was added or has ended, or is_closed_ was set
+  std::condition_variable changed_;  // notified if a task is added or ends, or is_closed_ is set
   std::deque<Task> waiting_;
   std::size_t weight_ = 0;   // total weight of the tasks that wait or run
   std::size_t running_ = 0;  // number of tasks that run

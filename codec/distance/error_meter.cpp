@@ -27,7 +27,7 @@ double diagonal(const TriangleBvh& bvh) {
 }
 
 struct Worst {
-  double squared, at_least;  // same meaning as in ClosestTriangle
+  double squared, at_least;  // squared distance to the other surface, and a lower bound of it
   // `triangle` contains the sample. `nearest` is the closest triangle of the other surface.
   std::uint32_t triangle, nearest;
 };

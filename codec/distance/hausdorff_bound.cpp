@@ -247,8 +247,8 @@ bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness
   return true;
 }
 
-// Bounds the piece, and then its parts one after the other. The parts wait on a stack of their own,
-// because a recursion would be as deep as the surface makes it.
+// Bounds the piece, and then its parts one after the other. Uses an explicit stack, because the
+// depth of a recursion would depend on the surface.
 void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   open_.push_back({piece, start, kUncut});
   while (!open_.empty()) {
@@ -327,8 +327,8 @@ ClosestTriangle HausdorffBound::search(const Vec3& p, std::uint32_t hint) {
 }
 
 // Counts one unit of work. Lowers the precision after a certain amount of work. The total time is
-// therefore bounded, even if the surfaces cross or coincide. Starts from limit(), because a
-// precision finer than the largest known distance would save no work.
+// therefore bounded, even if the surfaces cross or coincide. The new precision is a multiple of
+// limit(), because a precision finer than limit() would save no work.
 void HausdorffBound::spend() {
   const std::size_t most = (kWork + target_->size()) / (is_coarse_ ? kLaterWork : 1);
   if (++spent_ <= most) return;

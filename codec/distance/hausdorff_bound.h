@@ -10,8 +10,8 @@
 //
 // A piece is settled once its bound is good enough. Most triangles of the source are settled
 // without cuts, because a patch of the target covers them (patch_cover.h). If the target's
-// triangles are much smaller than the limit, a few exact distances settle a triangle of the source
-// faster than a patch.
+// triangles are much smaller than a good enough bound, a few exact distances settle a triangle of
+// the source faster than a patch.
 //
 // Surfaces with sheets that cross or coincide can need very many pieces, because pieces must become
 // as small as the precision. The precision is therefore lowered as the work grows, which bounds the
@@ -96,18 +96,20 @@ class HausdorffBound {
   // Maximum number of successive cuts of a piece. Without this limit, rounding could cause endless
   // cuts.
   static constexpr int kCuts = 16;
-  // The same limit for a slender target, which has long triangles side by side (triangle_bvh.h). A
-  // piece over n such triangles needs n - 1 cuts. Halving would need about n^2 pieces, because
-  // halves are as long as they are wide. Each kCuts cuts count as one unit of work.
+  // Maximum number of successive cuts of a piece if the target is slender: if it has long triangles
+  // side by side (triangle_bvh.h). A piece over n such triangles needs n - 1 cuts. Halving would
+  // need about n^2 pieces, because halves are as long as they are wide. Each kCuts cuts count as
+  // one unit of work.
   static constexpr int kSlenderCuts = 1'024;
   // The precision is lowered for the first time after kWork + (faces of the target) units of work,
-  // and then after each further 1 / kLaterWork of this. Usual surfaces need less than a sixth.
+  // and then after each further 1 / kLaterWork of this amount. Usual surfaces need less than a
+  // sixth of the amount.
   static constexpr std::size_t kWork = 16'384, kLaterWork = 4;
-  // Each time, pieces may have kCoarser times the previous bound.
+  // Each time the precision is lowered, `negligible_` becomes kCoarser times limit().
   static constexpr double kCoarser = 1.5;
   // A piece counts as one unit of work, and so do kNodesPerUnit nodes that searches visit. Searches
-  // are long for points beyond a vertex or an edge of the target, because all triangles around this
-  // vertex or edge are equally close, and among triangles that cross.
+  // are long among triangles that cross. They are also long for points beyond a vertex or an edge
+  // of the target, because all triangles around this vertex or edge are equally close.
   static constexpr std::uint32_t kNodesPerUnit = 64;
 
   // A region's bound is not refined below this share of the largest distance known in any region.

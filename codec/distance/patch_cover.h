@@ -96,7 +96,7 @@ class PatchCover {
 
   const WitnessSurface& surface_;
   std::vector<std::uint16_t> marks_;
-  std::vector<std::uint32_t> met_, calls_;  // same meaning as in Overlaps
+  std::vector<std::uint32_t> met_, calls_;  // become Overlaps::met and Overlaps::calls
   std::uint16_t mark_ = 0;
   std::uint32_t call_ = 0;
   std::vector<OpenTriangle> open_;

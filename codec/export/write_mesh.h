@@ -18,8 +18,9 @@
 
 namespace vitrine::inline codec {
 
-// File formats. Positions have single precision (as text in OBJ, VRML, 3MF and USDZ), except in
-// DRC, which has 24 bits per coordinate of the bounding box.
+// File formats. Unless the mesh is far from the origin (far_from_origin.h), positions have single
+// precision (as text in OBJ, VRML, 3MF and USDZ). DRC instead has 24 bits per coordinate of the
+// bounding box.
 enum class MeshFormat {
   kPly,   // binary little-endian; a texture as MeshLab writes it, or colours as bytes
   kGlb,   // glTF 2.0; a texture, or colours in linear light; compressed if asked for

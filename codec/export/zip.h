@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 // Returns a zip archive of the files, in their order. The names of the files must be ASCII and may
 // contain folders. Uses the fastest level of compression, because pictures are compressed already.
-// Equal files give equal bytes: no entry has a time. Fails (kLimit) if the archive or the files
-// would exceed the 32-bit sizes of a zip.
+// Equal files give equal archives, because all entries have the same date. Fails (kLimit) if the
+// archive or the files would exceed the 32-bit sizes of a zip.
 Expected<std::vector<std::uint8_t>> zip(std::span<const MeshFile> files);
 
 // Like zip(), but without compression. The bytes of each file begin at a multiple of 64 bytes from

@@ -38,7 +38,7 @@ constexpr std::array<KindOfObject, 8> kKinds{
 constexpr unsigned kAnimated = kModel | kAttribute | kDeformer;
 
 constexpr std::uint64_t kMost = std::uint64_t{1} << 32;  // sums are clamped to this
-constexpr std::uint64_t kMostInstances = 1 << 16;        // without the first instance of each model
+constexpr std::uint64_t kMostInstances = 1 << 16;  // not counting the first instance of each model
 constexpr std::uint64_t kMostSteps = 1 << 27;
 constexpr std::uint64_t kMostMorphed = 1 << 27;  // parts and corners of all copies of meshes
 // The importer takes about 2 KB of stack for each object in a chain.

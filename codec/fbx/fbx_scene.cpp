@@ -65,7 +65,7 @@ void leave_out_the_rest(Assimp::Importer& importer) {
 }
 
 Unexpected not_imported(const std::string& reason) {
-  // the importer says so of files before version 7.1
+  // the importer reports this for files of a version before 7.1
   if (reason.find("old format version") != reason.npos)
     return bad_input(
         "the FBX is older than FBX 2011, which is not read; export it again as FBX 2013 or later, "

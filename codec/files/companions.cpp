@@ -74,7 +74,7 @@ constexpr std::size_t kMostNamesakes = 256;
 struct Fit {
   std::size_t equal_parts;  // number of equal parts at the ends of both paths
   int nearness;             // 2 in the folder of the mesh file, 1 below it, 0 elsewhere
-  std::ptrdiff_t folders;   // negative number of folders in the path
+  std::ptrdiff_t folders;   // minus the number of folders in the path
 
   auto operator<=>(const Fit&) const = default;
 };

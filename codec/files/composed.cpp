@@ -11,7 +11,7 @@ namespace {
 
 struct Mark {
   std::string_view mark;
-  // Letters, each followed by the character that it and the mark form.
+  // Letters, each followed by the character that the letter and the mark form.
   std::string_view pairs;
 };
 

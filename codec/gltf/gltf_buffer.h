@@ -48,9 +48,10 @@ class GltfBuffer {
   const Json& document_;
   std::span<const std::uint8_t> binary_;
   GltfResources& resources_;
-  // Key: index of a buffer with a URI. Also holds errors, so that each URI is looked up only once.
+  // Index of a buffer with a URI -> the buffer's bytes, or the error if they cannot be found. Each
+  // URI is thus looked up only once.
   std::map<std::uint64_t, Expected<std::span<const std::uint8_t>>> buffers_;
-  // key: index of the compressed buffer view
+  // index of a compressed buffer view -> its decompressed bytes
   std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;
   std::set<std::uint64_t> clipped_;  // indices of the buffer views that were clipped
   std::uint64_t spent_ = 0;

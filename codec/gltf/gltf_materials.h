@@ -53,7 +53,9 @@ class GltfMaterials {
   // added only once, and its name, which may be a long data: URI, is read only once.
   std::map<std::uint64_t, std::uint32_t> carried_images_;
   std::vector<Material> materials_;
-  std::map<std::uint64_t, std::uint16_t> indices_;  // key: index of the material in the document
+  // Index of a material in the document -> its index in `materials_`. The key of the material for
+  // primitives without one is kAbsent.
+  std::map<std::uint64_t, std::uint16_t> indices_;
   std::set<std::string> unread_extensions_;
   std::uint64_t glossy_materials_ = 0, maps_beyond_sets_ = 0, materials_beyond_limit_ = 0;
 };

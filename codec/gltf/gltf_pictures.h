@@ -42,7 +42,7 @@ class GltfPictures {
   const Json& document_;
   GltfBuffer& buffer_;
   GltfResources& resources_;
-  // Key: index of the image. The map ensures that each data: URI is decoded only once.
+  // Index of an image -> its bytes. Each data: URI is thus decoded only once.
   std::map<std::uint64_t, std::span<const std::uint8_t>> found_;
   std::map<std::uint64_t, std::string> faults_;  // index of the image -> fault
 };

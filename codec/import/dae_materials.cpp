@@ -34,7 +34,8 @@ double opacity_of(const std::array<double, 4>& colour, Text mode, double transpa
   if (mode == "RGB_ZERO") opacity = 1 - mean * transparency;
   if (mode == "RGB_ONE") opacity = mean * transparency;
   if (mode == "A_ZERO") opacity = 1 - colour[3] * transparency;
-  // Some programs invert the factor and so write opaque materials as invisible.
+  // Some programs invert the factor, which makes opaque materials invisible. An opacity of 0 is
+  // therefore read as 1.
   return opacity > 0 ? std::min(opacity, 1.0) : 1;
 }
 

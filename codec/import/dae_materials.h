@@ -34,7 +34,7 @@ class DaeMaterials {
   const DaeDocument& document_;
   DaeWork& work_;
   ObjMaterials& materials_;
-  std::map<std::string_view, DaeNode> bound_;  // key: symbol
+  std::map<std::string_view, DaeNode> bound_;  // symbol -> element of the material
   // Key: hash value of an element. Value: the name of the material that was defined, or an empty
   // string if the element is not a material.
   std::map<std::size_t, std::string> defined_;

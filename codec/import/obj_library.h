@@ -53,9 +53,10 @@ struct ObjMaterial {
 
 using ObjLibrary = std::map<std::string, ObjMaterial, std::less<>>;  // key: name of the material
 
-// Adds the materials of a library to `out`. `folder` is the library's folder (see StatedPath);
-// `out` then refers to its text. If a material occurs twice, later statements replace earlier ones.
-// If the diffuse colours of the library range from 0 to 255, scales them to the range 0 to 1.
+// Adds the materials of a library to `out`. `folder` is the library's folder (see StatedPath). Its
+// characters must outlive `out`, whose maps keep a view of them. If a material occurs twice, later
+// statements replace earlier ones. If the diffuse colours of the library range from 0 to 255,
+// scales them to the range 0 to 1.
 void read_obj_library(std::span<const std::uint8_t> bytes, std::string_view folder,
                       ObjLibrary& out);
 

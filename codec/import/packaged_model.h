@@ -17,9 +17,9 @@
 
 namespace vitrine::inline codec {
 
-// The file among others that is the model.
+// The file that choose_model() has chosen from a list of files.
 struct ChosenModel {
-  std::size_t file;       // its index
+  std::size_t file;       // index of the file in the list of all files
   std::string note = {};  // says which file was chosen; empty if there was no choice
 };
 

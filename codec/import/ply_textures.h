@@ -33,8 +33,9 @@ class PlyTextures {
   std::vector<Material> materials_;
 };
 
-// Decodes the pictures of the TextureFile comments if the file has what PlyTextures needs. An entry
-// is null if the picture cannot be decoded.
+// Decodes the pictures of the TextureFile comments. An entry is null if the picture cannot be
+// decoded. Returns an empty list if the file lacks texture coordinates or, for several pictures, a
+// picture number for each face.
 std::vector<const Picture*> find_pictures(const PlyHeader& header, NamedPictures& pictures);
 
 bool has_texture_coordinates(const PlyHeader& header);

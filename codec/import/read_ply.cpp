@@ -161,8 +161,8 @@ double scale_of(PlyType type) {
   }
 }
 
-// Whether the reader needs a property of a vertex, or may drop it without a loss: normals follow
-// from the faces.
+// Whether no message about an unread property of a vertex is needed: the reader uses the property,
+// or it is part of a normal, which can be computed from the faces.
 bool is_known_of_vertex(const PlyProperty& property) {
   const std::string& name = property.name;
   return slot_of(property) != kNowhere || name == "nx" || name == "ny" || name == "nz";
@@ -172,7 +172,7 @@ bool is_known_of_vertex(const PlyProperty& property) {
 struct VertexPlan {
   std::vector<Slot> slots;
   std::vector<PlyType> types;  // per property: the type with which it is read
-  unsigned found = 0;          // bit n is set if the file has slot n
+  unsigned found = 0;          // bit n is set if a property of the file is read into slot n
   double colour_scale = 1;
   bool has_normal = false;
   // Whether the range of the colours is unknown: floats are up to 1 or up to 255, 16-bit integers

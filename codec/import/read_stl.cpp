@@ -79,7 +79,7 @@ bool are_plausible_facets(std::span<const std::uint8_t> bytes) {
 }
 
 // Whether the bytes after the stated number of facets are more facets. Their numbers must be
-// plausible, no component of a normal may exceed 1.01, and not all bytes may be zero.
+// plausible, no component of a normal may exceed 1.01, and at least one byte must not be zero.
 bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
   constexpr float kMostNormal = 1.01F;
   ByteReader facets(bytes);

@@ -10,7 +10,7 @@ SceneMesh::SceneMesh(std::string_view format, const Companions& companions, cons
                      std::uint64_t room)
     : materials_(companions, limits), room_(std::min(room, limits.vertices)) {
   mesh_.format = format;
-  // These formats repeat positions where normals or texture coordinates are discontinuous.
+  // DAE and FBX files repeat positions where normals or texture coordinates are discontinuous.
   mesh_.has_seams = true;
 }
 

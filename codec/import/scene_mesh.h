@@ -26,7 +26,7 @@ struct SceneCorner {
 
 class SceneMesh {
  public:
-  // `room` limits the vertices, the corners, and the parts that add_part() announces. The other
+  // `room` is the maximum number of vertices, of corners and of parts (add_part()). The other
   // arguments must outlive this object.
   SceneMesh(std::string_view format, const Companions& companions, const Limits& limits,
             std::uint64_t room);
@@ -54,7 +54,7 @@ class SceneMesh {
 
   RawMesh mesh_;
   ObjMaterials materials_;
-  ColourMeans own_, baked_;  // mean vertex colours, from colours and from materials
+  ColourMeans own_, baked_;  // mean colours of vertices: from SceneCorner::colour, from materials
   std::vector<std::uint32_t> corners_;
   std::vector<TextureCoordinates> at_corners_;
   std::vector<std::string> notes_;

@@ -60,8 +60,9 @@ bool continues(std::string_view line) {
 }
 
 // Returns the unit that follows the word "unit" or "units" in a comment, such as "mm", "is mm",
-// "are in inches" or "= 1 mm". Returns an empty string if the unit is "unknown". The word "in" does
-// not mean inches if another word follows it, as in "in world space".
+// "are in inches" or "= 1 mm". Returns an empty string if the unit is "unknown", and nullopt if no
+// unit follows. The word "in" does not mean inches if another word follows it, as in "in world
+// space".
 std::optional<std::string_view> unit_after(std::string_view line) {
   std::string word = take_lower_word(line);
   for (const std::string_view filler : {"is", "are", "1"}) {

@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint64_t kFlatWebpPixels = 1 << 24;  // allowed for the smallest WebP, too
+constexpr std::uint64_t kFlatWebpPixels = 1 << 24;  // a WebP of any file size may have this many
 
 bool has_at(Bytes bytes, std::size_t at, std::string_view magic) {
   return bytes.size() >= at + magic.size() &&

@@ -83,8 +83,8 @@ void straighten_opacity(std::vector<std::uint8_t>& pixels) {
   }
 }
 
-// Lets libtiff convert CIELab to sRGB with grey as grey. Its own white is that of D50, which sRGB
-// shows as brown.
+// Sets the white point with which libtiff converts CIELab to sRGB to D65, so that greys stay grey.
+// With libtiff's default, D50, greys would become brown.
 void adapt_white(TIFF* tiff) {
   std::uint16_t kind = 0;
   TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &kind);

@@ -19,7 +19,7 @@ class ViewPlan {
   ViewPlan(const Manifest& manifest, const std::vector<std::uint8_t>& have, const View& view);
 
   // Returns the chunk to fetch next. Returns nullopt if no visible error exceeds the view's limit,
-  // or if every useful chunk is longer than `bytes` together with its missing prerequisites.
+  // or if every useful chunk has more than `bytes` bytes together with its missing prerequisites.
   //
   // Examines at most kMostSteps neighbours and chunks. This is enough for every model that the
   // encoder writes. If a hostile header needs more steps, returns the best chunk found so far, or

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two steps that make an oriented manifold of triangles: turns faces, and splits vertices.
+// The two steps that make an oriented manifold of triangles: orienting faces, splitting vertices.
 #pragma once
 
 #include <cstdint>

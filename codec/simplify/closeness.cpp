@@ -52,7 +52,7 @@ class Patch {
     return false;
   }
 
-  // Whether the midpoints of the edges from `edges.centre` to its ring are near this patch. `fan`
+  // Whether is_near() holds for the midpoints of the edges from `edges.centre` to its ring. `fan`
   // is the index of the fan in this patch that has the same ring.
   bool has_near(const Fan& edges, std::uint32_t fan, double squared) {
     last_ = start_[fan] < size() ? start_[fan] : 0;  // 0 if the fan has no faces
@@ -64,7 +64,7 @@ class Patch {
     return true;
   }
 
-  // Whether the centroids of all faces in `other` are near this patch.
+  // Whether is_near() holds for the centroids of all faces in `other`.
   bool has_near(const Patch& other, double squared) {
     last_ = 0;
     return std::ranges::all_of(other.faces(), [&](const TrianglePoints& f) {

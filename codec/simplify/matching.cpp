@@ -158,7 +158,8 @@ Vec3 CollapseMatcher::likely_target(const LevelRules& rules, Corner c) const {
   for (VertexId apex : {mesh.vertex(prev(c)), mesh.vertex(mesh.opposite(prev(c)))}) {
     if (!is_virtual(apex)) near += surface_.point(apex), ++m;
   }
-  // Each ring contains the other end of the edge and the opposite vertices.
+  // `shared` counts the ring vertices that do not belong to `far`: the ring of each end contains
+  // the other end and the m opposite vertices.
   const std::uint32_t both = ring_size_[v] + ring_size_[w], shared = 2 + 2 * m;
   if (m == 0 || both <= shared) return middle;
   const Vec3 far = ring_sum_[v] + ring_sum_[w] - p - q - near * 2;

@@ -13,13 +13,13 @@ export interface NoteFile {
 
 type Vector = [number, number, number];
 
-/** The transform from the coordinates of the model's file to those of the IIIF scene, which are the coordinates of the GLB. */
+/** The transform from the coordinates of the model's file to those of the IIIF scene, which are the coordinates of an exported GLB. */
 export interface SceneScale {
   presentation: Pick<Presentation, "rotation" | "scale">;
   unit: string;
 }
 
-const kMostTitle = 200; // bytes of UTF-8
+const kMostTitle = 200; // maximum length of a title, in bytes of UTF-8
 const kMetres: Record<string, number> = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254 };
 
 const listOf = <T>(value: T | T[] | undefined): T[] => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
@@ -77,7 +77,7 @@ function onDaemon(url: string): string {
 /** Returns a text without the tabs and carriage returns that the daemon refuses. */
 const plain = (text: string): string => text.replace(/\r\n?/g, "\n").replaceAll("\t", " ");
 
-/** Returns the text of a note. Without a label, its title is the first line. If a title is too long, the text has all of it. */
+/** Returns a note's title and text. Without a label, the title is the first line of `value`. The text repeats a title that had to be shortened. */
 function textOf(label: string, value: string): NoteText {
   const [first = "", ...rest] = value.split("\n"), whole = label || first, title = shortened(whole) || "…";
   if (title !== whole && whole !== "") return { title, text: !label || label === value ? value : `${label}\n\n${value}`.trim() };

@@ -121,7 +121,7 @@ class ModelEditor {
     if (!this.#noting.open) return this.#notes?.rest();
     if (this.#notes || !this.#model) return;
     const alert = new Alert(), attempt = async () => {
-      this.#noting.querySelector(":scope > .alert")?.remove(); // of an attempt that failed
+      this.#noting.querySelector(":scope > .alert")?.remove(); // removes the error of an earlier attempt
       if (!(await alert.attempt(() => this.#loadNotes()))) this.#noting.append(alert.element);
     };
     await (this.#openingNotes ??= attempt().finally(() => (this.#openingNotes = undefined)));

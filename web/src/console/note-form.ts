@@ -75,7 +75,7 @@ export class NoteForm {
     this.#languages.value = tag;
   }
 
-  /** Returns the title of a note in the present language, or else in another. */
+  /** Returns the title of a note in the chosen language or, if it has none, in its first language. */
   titleOf({ texts }: StoredNote): string {
     return (texts[this.language] ?? Object.values(texts)[0])?.title ?? "";
   }
@@ -95,7 +95,7 @@ export class NoteForm {
     (this.#control("title") as HTMLInputElement).select();
   }
 
-  /** Offers the usual languages and `more`. Keeps the choice. */
+  /** Offers the usual languages and those of `more`. Keeps the chosen language. */
   #offer(more: string[]): void {
     const { h, language } = this.kit, chosen = this.#languages.value || language;
     const names = new Intl.DisplayNames(language, { type: "language", fallback: "code" });

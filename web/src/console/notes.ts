@@ -129,7 +129,7 @@ export class NotesEditor {
     this.#said.textContent = on ? (this.#moved ? words.clickMove : words.click) : "";
   }
 
-  /** Runs `act`, which needs the viewer. Says so if the viewer is not ready. */
+  /** Runs `act`, which needs the viewer. If `act` fails, tells the operator that the viewer is not ready. */
   async #attempt(act: () => Promise<void>): Promise<void> {
     await act().catch(() => (this.#said.textContent = this.kit.texts.notes.noViewer));
   }
@@ -252,14 +252,20 @@ export class NotesEditor {
     this.options.saved();
   }
 
-  /** Reads what somebody else has stored. Then the operator can replace it by saving again, or see it by discarding. */
+  /**
+   * Reads the notes and tours that somebody else has stored meanwhile. The operator can then replace them by saving again, or see
+   * them by discarding the unsaved changes.
+   */
   async #refresh(): Promise<never> {
     await this.#read();
     this.#change(this.#now);
     throw new Error(this.kit.texts.notes.outdated);
   }
 
-  /** Opens the note, in the language, to which a refusal of the daemon refers. Keeps only the faults that are in the form then. */
+  /**
+   * Opens the note and the language that the first fault of the error names. Removes all faults of other notes and languages
+   * from the error, because the form does not show their fields.
+   */
   #showFault(error: unknown): void {
     const { faults } = error as { faults?: { parameter: string }[] }, [, number, language] = placeOf(faults?.[0]?.parameter);
     const note = number === undefined ? undefined : this.#now.notes[Number(number)];
@@ -296,7 +302,7 @@ export class NotesEditor {
   }
 }
 
-/** Returns the number of a note and the language that the path of a fault names, after the whole match. */
+/** Splits the path of a fault. Returns the matched text, the number of the note, and the language if the path names one. */
 function placeOf(parameter = ""): string[] {
   return /^notes\.(\d+)(?:\.texts\.([^.]+))?/.exec(parameter) ?? [];
 }

@@ -31,7 +31,7 @@ export interface EditorOptions {
   /** The element that contains the viewer. */
   stage: HTMLElement;
   signal: AbortSignal;
-  /** Stores the changes and returns the model as it is now, in a new viewer. Rejects if the daemon refuses them. */
+  /** Stores the changes, shows the model in a new viewer and returns its new record. Rejects if the daemon refuses the changes. */
   save(changes: Placed): Promise<ModelRecord>;
   /** Returns the present poster. */
   poster(): Promise<Blob>;
@@ -88,7 +88,7 @@ export class PresentationEditor {
     this.element = h("div", { class: "presentation" }, this.#restored, this.#form);
   }
 
-  /** Edits this state of the model. Continues with its unsaved changes, if there are any. */
+  /** Shows the values of a model in the editor. Continues with the unsaved changes of this model, if there are any. */
   show({ id, unit, presentation }: ModelRecord): void {
     this.#id = id;
     this.#saved = { unit, presentation };

@@ -5,9 +5,9 @@ import type { h as make } from "../ui/dom.ts";
 
 export type Turn = (about: "right" | "up" | "eye", degrees: number) => void;
 
-const kPerPixel = 0.5; // degrees
-const kRim = 0.68; // inner radius of the rim, as a part of the handle's radius
-const kStep = 1, kLargeStep = 15; // degrees
+const kPerPixel = 0.5; // degrees that the object turns per pixel of dragging
+const kRim = 0.68; // inner radius of the rim, as a share of the handle's radius
+const kStep = 1, kLargeStep = 15; // degrees per key press, without and with Shift
 
 const kKeys: Record<string, [about: "right" | "up" | "eye", sign: number]> = {
   ArrowLeft: ["up", -1], ArrowRight: ["up", 1], ArrowUp: ["right", -1], ArrowDown: ["right", 1], PageUp: ["eye", 1], PageDown: ["eye", -1],

@@ -37,7 +37,7 @@ export class ApiSource implements Source {
   /** Does nothing, because each request has its own abort signal. */
   close(): void {}
 
-  /** Calls `look` with the response before its body is read. Only a request for the head has it, and may have been sent by the page. */
+  /** Only the request for the head has `look`, which gets the response before its body is read. That response may already be in `first`. */
   async #get({ url, headers }: FirstRequest, what: string, signal: AbortSignal, look?: (response: Response) => void): Promise<Uint8Array> {
     try {
       const response = (look && (await this.first)) ?? (await fetch(url, { signal, headers }));

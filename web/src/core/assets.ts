@@ -9,7 +9,7 @@ export interface Assets {
 }
 
 /**
- * Returns the URLs of the files in this module's folder, replaced by those of `moved`. Bundlers look for `new
+ * Returns the URLs in `moved`, and the URLs in this module's folder for the other files. Bundlers look for `new
  * URL("literal", import.meta.url)`, copy the file and replace the expression by its new URL. Computes the URLs at each
  * call, because import.meta.url may be missing when the module is loaded on a server.
  */

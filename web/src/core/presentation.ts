@@ -8,7 +8,7 @@ export interface PresentedView {
   elevation: number;
   /** 1 shows the whole model. */
   zoom: number;
-  /** The point in the middle of the view, in presented coordinates. Null stands for the centre of the model. */
+  /** The point in the middle of the view, after the model's rotation and scaling. Null stands for the centre of the model. */
   target: [number, number, number] | null;
 }
 
@@ -21,7 +21,7 @@ export interface PresentedLight {
 export interface Presentation {
   /** Unit quaternion x, y, z, w. Turns model coordinates so that y points up. */
   rotation: [number, number, number, number];
-  /** Factor from model coordinates to the unit. */
+  /** Factor that converts model coordinates to the model's unit. */
   scale: number;
   view: PresentedView | null;
   poster: PresentedView | null;

@@ -94,7 +94,7 @@ export interface ModelInfo {
   /** The origin of surface positions, in model coordinates. */
   centre: [number, number, number];
   texture?: TextureInfo;
-  /** How the daemon presents the model. Absent if as in the file. */
+  /** How the daemon presents the model. Absent if the model is shown as it is in the file. */
   presentation?: Presentation;
 }
 

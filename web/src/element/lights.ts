@@ -53,14 +53,14 @@ export class Lights {
     this.#mix();
   }
 
-  /** Adds the room at the time `now`. */
+  /** Adds the room. `now` is the current time in milliseconds. */
   enter(room: Texture, now: number): void {
     this.scene.environment = room;
     this.#arrived = now;
     this.#mix();
   }
 
-  /** Sets all intensities for the time `now`. Returns whether they are still changing. */
+  /** Sets all intensities for the time `now`, in milliseconds. Returns whether they are still changing. */
   advance(now: number): boolean {
     if (this.#arrived === undefined) return false;
     this.#share = matchMedia("(prefers-reduced-motion: reduce)").matches ? 1 : Math.min((now - this.#arrived) / kFade, 1);

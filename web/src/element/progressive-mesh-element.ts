@@ -110,7 +110,7 @@ export class ProgressiveMeshElement extends Base {
     return this.#isPainted ? this.#stage?.orbit : undefined;
   }
 
-  /** The point that the camera looks at, in presented coordinates. */
+  /** The point that the camera looks at, in the coordinates of the model as the daemon presents it (rotated and scaled). */
   getCameraTarget(): [number, number, number] | undefined {
     return this.#isPainted ? this.#stage?.target : undefined;
   }

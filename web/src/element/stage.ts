@@ -109,8 +109,8 @@ export class Stage {
   }
 
   /**
-   * Places the camera as the attributes say. Without attributes, the model fills the view. The first call must come when the
-   * base mesh is shown, because it determines how large the model is.
+   * Places the camera as the attributes say. Without attributes, the model fills the view. Call this only once the base mesh is
+   * shown, because the model's size is computed from the base mesh.
    */
   frame(words: CameraWords = { orbit: null, target: null, fieldOfView: null }): void {
     this.#place(words, this.mesh.info.presentation?.view);
@@ -136,12 +136,12 @@ export class Stage {
     this.#stand(orbitOf(words.orbit, { theta: around.theta, phi: around.phi, radius: distance / (view?.zoom ?? 1) }, unit), target);
   }
 
-  /** Returns the distance from `target`, relative to the model's centre, at which the model fills the view. */
+  /** Returns the distance from `target` at which the model fills the view. `target` is relative to the model's centre. */
   fittingDistance(target: Vector3, direction: Vector3): number {
     return fittingDistance(this.mesh.basePositions, target, direction, this.#camera.aspect, this.#camera.fov) || 1;
   }
 
-  /** The radius of a sphere around the model. */
+  /** The radius of a sphere around the model, in the unit of the presented model. */
   get radius(): number {
     return (this.mesh.geometry.boundingSphere?.radius ?? 1) * this.mesh.scale.x;
   }
@@ -152,7 +152,7 @@ export class Stage {
     return { theta, phi, radius };
   }
 
-  /** The point that the camera looks at, in presented coordinates. */
+  /** The point that the camera looks at, in the coordinates of the presented (rotated and scaled) model. */
   get target(): Vec3 {
     return this.#controls.target.clone().add(this.mesh.presentedCentre).toArray();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gallery, "/", which shows the published models. A button loads further models. Words, facets
-// and order of the search are in the URL's query. Also the page of a collection, "/collections/{name}", which shows the models of
-// that collection only.
+// and order of the search are in the URL's query. The same code serves the page of a collection, "/collections/{name}", which shows
+// only the models of that collection.
 import { facets, models, type ModelRecord } from "../ui/api.ts";
 import { byId, h, square } from "../ui/dom.ts";
 import { count, language, size, texts } from "../ui/texts/index.ts";

@@ -17,7 +17,7 @@ export class Appearance {
     this.#dress();
   }
 
-  /** Must be called before the first picture. */
+  /** Attributes and texture of the model. Must be set before the first call of show(). */
   set info(info: Pick<ModelInfo, "attributes" | "texture">) {
     this.#info = info;
     this.#dress();

@@ -5,7 +5,7 @@ import type { PictureRole, TextureInfo } from "../core/types.ts";
 
 /** Desired side of a picture in pixels, per pixel of the model's size on the screen. */
 const kSharpness = 1.5;
-/** Replaces kSharpness if the visitor saves data. */
+/** Used instead of kSharpness if the visitor has asked to save data. */
 const kSavingSharpness = 0.75;
 
 export interface PictureLimits {
@@ -39,7 +39,7 @@ export class Pictures {
     return [...this.#shown.values()].reduce((sum, { side }) => sum + side ** 2, 0);
   }
 
-  /** Bytes of all pictures shown, with their smaller copies, in graphics memory. */
+  /** Bytes of all pictures shown, with their mipmaps, in graphics memory. */
   get graphicsBytes(): number {
     return [...this.#shown.values()].reduce((sum, { side }) => sum + pyramidBytes(side), 0);
   }
@@ -55,8 +55,9 @@ export class Pictures {
   }
 
   /**
-   * Returns the next picture to request, if the model is `pixels` pixels large on the screen.
-   * Returns undefined if there is none, or if the previous request is neither shown nor forgotten.
+   * Returns the next picture to request. `pixels` is the length of the model's longest side on the
+   * screen, in pixels. Returns undefined if no picture is needed, or if the picture requested before
+   * is neither shown nor forgotten.
    */
   next(pixels: number, limits: PictureLimits): SizedPicture | undefined {
     if (this.#requested) return undefined;

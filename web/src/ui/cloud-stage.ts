@@ -51,8 +51,8 @@ export class CloudStage {
   }
 
   /**
-   * Removes all points. Called when the scan measures again. If a visitor controls the camera, the camera stays in
-   * place.
+   * Removes all points. Called when the scan has started again from the beginning. If a visitor controls the camera, the camera
+   * stays in place.
    */
   restart(): void {
     this.#cloud.empty();

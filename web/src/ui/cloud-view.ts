@@ -23,7 +23,7 @@ export class CloudView {
     this.#opened()?.add(points);
   }
 
-  /** Removes all points. Called when the scan measures again. */
+  /** Removes all points. Called when the scan has started again from the beginning. */
   restart(): void {
     this.#stage?.restart();
   }

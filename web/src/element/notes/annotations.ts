@@ -34,7 +34,7 @@ export interface StoredNote {
   texts: Record<string, NoteText>;
   picture?: string;
   view?: NoteView;
-  /** Settings of the tools, as in links. */
+  /** Settings of the light and the section, in the same form as in shared links. */
   light?: string;
   section?: string;
 }
@@ -90,7 +90,7 @@ export function languageIn(entries: Record<string, unknown>, wanted: string): st
     ?? tags.find((tag) => primary(tag) === "en") ?? tags[0];
 }
 
-/** Returns the light of a note for the light that the viewer shows. Null stands for the museum's light. */
+/** Returns the text by which a note stores the light that the viewer shows. Null stands for the museum's light. */
 export function lightOf(shown: PresentedLight | null): string {
   return shown === null ? "museum" : shown.preset === "raking" ? `raking,${shown.angle}` : shown.preset;
 }

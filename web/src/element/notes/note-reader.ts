@@ -38,7 +38,7 @@ export interface NoteDocuments {
   tours: StoredTour[];
 }
 
-const kTillPreview = 200; // milliseconds without a change before it is shown
+const kTillPreview = 200; // milliseconds from the last change of the notes until they are shown
 
 export class NoteReader {
   readonly #list: HTMLOListElement;
@@ -47,7 +47,7 @@ export class NoteReader {
   #notes: Annotation[] = [];
   #marks: Mark[] = [];
   readonly #places = new Map<Mark, Pick<Annotation, "position" | "normal">>(); // of notes and hotspots, in model coordinates
-  #later: ReturnType<typeof setTimeout> | undefined; // shows a preview
+  #later: ReturnType<typeof setTimeout> | undefined; // timer that shows a preview
   #hotspots: Mark[] = [];
   #source = ""; // where the notes come from
   #wanted = ""; // the note of a link that was opened before the notes were loaded
@@ -98,7 +98,7 @@ export class NoteReader {
     this.#open();
   }
 
-  /** Replaces the daemon's notes by others, which may not be saved yet. Waits until nothing has changed for a moment. */
+  /** Replaces the daemon's notes by others, which may not be saved yet. Shows them kTillPreview ms after the last call. */
   preview(documents: NoteDocuments): void {
     this.#source += " preview"; // ignores a response that arrives later
     clearTimeout(this.#later);
@@ -110,7 +110,7 @@ export class NoteReader {
     for (const [mark, { position, normal }] of this.#places) Object.assign(mark, this.#spot(position, normal));
   }
 
-  /** Fills in other notes. The chosen note stays chosen. */
+  /** Shows other notes and tours instead of the present ones. The chosen note stays chosen. */
   #replace(documents: NoteDocuments): void {
     const chosen = this.#notes[Number(this.setting) - 1]?.id;
     this.#fill(documents.notes.map((note) => inLanguage(note, this.#language, this.#api)), documents);
@@ -165,7 +165,7 @@ export class NoteReader {
     for (const one of [own, notes, tours]) if (one.status === "rejected") this.#miss(source, one.reason as Error);
   }
 
-  /** Says that one source of notes cannot be loaded. */
+  /** Tells the visitor that one source of notes cannot be loaded. */
   #miss(source: string, error: Error): void {
     if (!this.#list.querySelector(".missing")) this.#list.append(this.kit.make("li", { class: "missing" }, this.bench.texts.notesMissing));
     this.kit.onFilled(true);
@@ -247,7 +247,7 @@ export class NoteReader {
     this.#marks.forEach(({ element }, i) => element.classList.toggle("chosen", i === chosen));
   }
 
-  /** Converts the view of a note to a view of the camera, in presented coordinates. */
+  /** Converts the view of a note to a view of the camera, which is in the coordinates of the presented (rotated and scaled) model. */
   #viewOf({ direction, target, zoom = 1 }: NoteView): OrbitView {
     const { stage } = this.bench, { mesh } = stage, at = target ? this.#onStage(target) : new Vector3();
     const toEye = new Vector3(...direction).applyQuaternion(mesh.quaternion).normalize();
@@ -280,13 +280,13 @@ export class NoteReader {
     return { point: this.#onStage(position), ...(normal && { normal: new Vector3(...normal).applyQuaternion(mesh.quaternion) }) };
   }
 
-  /** Returns where a point in model coordinates is on the stage. */
+  /** Converts a point from model coordinates to the coordinates of the stage's scene. */
   #onStage(position: Triple): Vector3 {
     const { mesh } = this.bench.stage;
     return new Vector3(...position).sub(new Vector3(...mesh.info.centre)).applyMatrix4(mesh.matrixWorld);
   }
 
-  /** Returns a point of the stage in model coordinates. */
+  /** Converts a point from the coordinates of the stage's scene to model coordinates. */
   #inModel(point: Vector3): Triple {
     const { mesh } = this.bench.stage;
     return rounded(point.clone().applyMatrix4(mesh.matrixWorld.clone().invert()).add(new Vector3(...mesh.info.centre)));

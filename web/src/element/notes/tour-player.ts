@@ -8,7 +8,7 @@ import type { NoteKit } from "./note-reader.ts";
 import { secondsToRead } from "./paragraphs.ts";
 
 export interface TourStep {
-  /** Place of the note in the list of notes. */
+  /** Index of the note in the list of notes, from 0. */
   index: number;
   note: Annotation;
   seconds?: number;
@@ -84,7 +84,7 @@ export class TourPlayer {
     }
   }
 
-  /** Ends the tour for the visitor, who continues where the tour was started. */
+  /** Ends the tour at the visitor's request. The focus returns to the button that started the tour. */
   #leave(): void {
     this.end();
     this.kit.onChosen(); // opens the sheet again

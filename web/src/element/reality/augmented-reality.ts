@@ -4,7 +4,7 @@ export { RoomSession } from "./room-session.ts";
 
 const kMetres: Readonly<Record<string, number>> = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254 };
 
-/** Returns how many metres a unit has. Returns undefined if the unit is unknown, so the model's real size is, too. */
+/** Returns the length of a unit in metres. Returns undefined if the unit is unknown; the model's real size is then unknown, too. */
 export function metresPer(unit: string): number | undefined {
   return kMetres[unit];
 }
@@ -16,10 +16,10 @@ export interface Exhibit {
   page: string;
 }
 
-/** Detail of the files for the system's viewers. Scene Viewer is made for files of at most 10 MB. */
+/** Maximum number of triangles in files for the system's viewers. Scene Viewer is made for files of at most 10 MB. */
 const kTriangles = 100_000;
 
-/** Returns the URL that opens Android's Scene Viewer, which downloads the model as GLB. In a browser without it, opens the page. */
+/** Returns the URL that opens Android's Scene Viewer, which downloads the model as GLB. Browsers without Scene Viewer open the page. */
 export function sceneViewerUrl({ api, title, page }: Exhibit): string {
   const words = new URLSearchParams({ file: `${api}/export.glb?triangles=${kTriangles}`, mode: "ar_preferred", resizable: "false", title, link: page });
   return `intent://arvr.google.com/scene-viewer/1.2?${words}#Intent;scheme=https;package=com.google.android.googlequicksearchbox;` +

@@ -5,7 +5,7 @@
 import { Matrix4, PerspectiveCamera, Quaternion, Vector3, WebGLRenderTarget } from "three";
 import type { Stage } from "../stage.ts";
 
-/** Vertical part of the normal from which a surface counts as a floor or a table. */
+/** A surface counts as a floor or a table if the vertical component of its unit normal is at least this. */
 const kLevel = 0.9;
 /** Distances in metres between which the session draws. */
 const kNear = 0.01, kFar = 50;
@@ -22,8 +22,8 @@ export class RoomSession {
   #isPlaced = false;
 
   /**
-   * Starts a session. A model unit has `metres`. `overlay` is shown above the camera picture; a tap beside its buttons sets the
-   * model down or picks it up. Calls `onEnd` when the session has ended. Rejects if the browser refuses the session.
+   * Starts a session. `metres` is the length of a model unit. `overlay` is shown above the camera picture; a tap beside its buttons
+   * sets the model down or picks it up. Calls `onEnd` when the session has ended. Rejects if the browser refuses the session.
    */
   static async start(stage: Stage, metres: number, overlay: HTMLElement, onEnd: () => void): Promise<RoomSession> {
     const { xr } = navigator, { renderer } = stage.parts, gl = renderer.getContext();
@@ -54,8 +54,8 @@ export class RoomSession {
     this.#camera.matrixAutoUpdate = false;
     this.#foot = metres * (mesh.presentedBox?.min.y ?? 0);
     mesh.scale.multiplyScalar(metres);
-    mesh.visible = false; // until there is a surface
-    renderer.clippingPlanes = []; // a section is in the coordinates of the viewer
+    mesh.visible = false; // until a floor or a table is found
+    renderer.clippingPlanes = []; // removes a section, because its plane is not in the coordinates of the room
     session.addEventListener("select", () => (this.#isPlaced = mesh.visible && !this.#isPlaced));
     session.addEventListener("end", () => (this.#restore(), onEnd()));
     const draw = (_: number, frame: XRFrame) => {
@@ -66,7 +66,7 @@ export class RoomSession {
   }
 
   end(): void {
-    this.session.end().catch(() => undefined); // it has ended already
+    this.session.end().catch(() => undefined); // ignores the error if the session has already ended
   }
 
   #draw(frame: XRFrame, target: SessionTarget): void {
@@ -74,7 +74,7 @@ export class RoomSession {
     if (!pose) return;
     if (!this.#isPlaced) this.#follow(frame, pose);
     renderer.setRenderTargetFramebuffer(target, this.layer.framebuffer);
-    target.scissorTest = true; // clears only the part of the view
+    target.scissorTest = true; // limits clearing to the part of the target that belongs to the view
     for (const view of pose.views) {
       const { x, y, width, height } = this.layer.getViewport(view) as XRViewport;
       target.viewport.set(x, y, width, height);
@@ -106,7 +106,7 @@ export class RoomSession {
     projectionMatrixInverse.copy(projectionMatrix).invert();
   }
 
-  /** Gives the viewer back what the session has changed. */
+  /** Restores the parts of the viewer that the session has changed. */
   #restore(): void {
     const { mesh, parts: { renderer } } = this.stage, { position, turn, scale, planes } = this.#before;
     mesh.position.copy(position);

@@ -71,7 +71,7 @@ export class ContactShadow {
   #isStale = true;
   #section: unknown; // the clipping planes with which the shadow was computed
 
-  /** Casts the shadow of `mesh`, whose base mesh must be loaded. The caller keeps its ownership. */
+  /** Casts the shadow of `mesh`, whose base mesh must be loaded. The caller must still dispose of `mesh`. */
   constructor(private readonly renderer: WebGLRenderer, mesh: ProgressiveMesh) {
     const body = unculled(new Mesh(mesh.geometry, this.#body));
     body.applyMatrix4(mesh.matrixWorld);

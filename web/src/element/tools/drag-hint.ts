@@ -4,7 +4,7 @@
 import type { Bench, Tool } from "./bench.ts";
 import { make } from "./dom.ts";
 
-const kHintDelay = 3000; // milliseconds without input
+const kHintDelay = 3000; // milliseconds without input until the hint appears
 
 export class DragHint implements Tool {
   readonly #hint: HTMLElement;

@@ -4,7 +4,7 @@ import { Vector3, type PerspectiveCamera } from "three";
 
 export interface Mark {
   element: HTMLElement;
-  /** Position relative to the model's centre, in model units. */
+  /** Position in the stage's scene: relative to the model's centre, in the unit of the presented model. */
   point: Vector3;
   /** Surface normal. If it points away from the camera, the mark gets the class `behind`. */
   normal?: Vector3;

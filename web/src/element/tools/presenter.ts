@@ -48,18 +48,18 @@ export class Presenter {
     return this.notes.reader();
   }
 
-  /** The size of the model along x, y and z, in presented coordinates. */
+  /** The size along x, y and z of the model as it is presented (rotated and scaled). */
   get size(): Triple {
     return (this.bench.stage.mesh.presentedBox?.getSize(new Vector3()) ?? new Vector3()).toArray();
   }
 
-  /** Returns the point of the surface at a point of the window, in presented coordinates. Returns undefined if there is none. */
+  /** Returns the point of the presented (rotated and scaled) surface at a point of the window, or undefined if there is none. */
   pick(clientX: number, clientY: number): Triple | undefined {
     const { stage, view } = this.bench, { left, top } = view.getBoundingClientRect();
     return pick(stage, clientX - left, clientY - top)?.add(stage.mesh.presentedCentre).toArray();
   }
 
-  /** Returns the place in the window, in pixels, where a point in presented coordinates is seen. */
+  /** Returns the place in the window, in pixels, where a point of the presented (rotated and scaled) model is seen. */
   project(point: Triple): [number, number] {
     const { stage, view, overlay } = this.bench, { left, top } = view.getBoundingClientRect();
     const { x, y } = overlay.project(new Vector3(...point).sub(stage.mesh.presentedCentre), stage.parts.camera);

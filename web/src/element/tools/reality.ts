@@ -33,7 +33,7 @@ export class Reality implements Tool {
   constructor(private readonly bench: Bench) {
     const { arPlace, close } = bench.texts, leave = make("button", { type: "button", class: "framed", onclick: () => this.#session?.end() }, close);
     this.#guide = make("div", { class: "room-guide", hidden: true }, make("p", {}, arPlace), leave);
-    leave.addEventListener("beforexrselect", (event) => event.preventDefault()); // the tap is for the button alone
+    leave.addEventListener("beforexrselect", (event) => event.preventDefault()); // keeps a tap on the button from also moving the model
     bench.view.append(this.#guide);
   }
 

@@ -77,7 +77,7 @@ export class Toolbox implements Bench {
     this.#until = new AbortController();
     this.#bar.inert = false;
     stage.onDraw = () => this.overlay.update(stage.parts.camera);
-    // The buttons of a tour do not take hold of the model.
+    // Stops an animation of the camera when the visitor presses anything except the buttons of a tour.
     const hold = ({ target }: Event) => void ((target as Element).closest(".tour-panel") || this.orbit.stop());
     this.view.addEventListener("pointerdown", hold, { signal: this.#until.signal });
     for (const tool of this.#tools) tool.attach?.(this.#until.signal);

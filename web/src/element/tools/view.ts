@@ -7,7 +7,7 @@ export interface OrbitView {
   elevation: number;
   /** Distance from the target, in the unit of the presented model. */
   distance: number;
-  /** The point that the camera looks at, in presented coordinates. */
+  /** The point that the camera looks at, in the coordinates of the presented (rotated and scaled) model. */
   target: [number, number, number];
 }
 

@@ -12,7 +12,7 @@ const kMaxSeconds = 86_400;
 /** One visit: the time in which the model was visible, and the finest level shown. Times are in milliseconds. */
 export class Visit {
   #visible = 0; // visible time that has not been reported yet
-  #since: number | undefined; // start of the current time in view
+  #since: number | undefined; // time since which the model has been visible; undefined if it is hidden
   #wasSeen = false;
   #level = 0;
   #reported: number | undefined; // level in the last report
