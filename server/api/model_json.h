@@ -21,8 +21,8 @@ struct ModelView {
   // Whether the links of published models include the URL to which viewers report visits.
   bool counts_visits = false;
   std::string origin = {};  // start of the URLs in citations; see origin_of()
-  // The setting `public-url`. Unlike `origin`, does not depend on the request's host, so that a
-  // client may read a model at one host and change it at another.
+  // The setting `public-url`. model_tag() uses it instead of `origin`, which depends on the
+  // request's host: a client may read a model at one host and change it at another.
   std::string public_url = {};
 };
 

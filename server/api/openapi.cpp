@@ -50,8 +50,8 @@ Json ref(std::string_view kind, std::string_view name) {
   return {{"$ref", fmt::format("#/components/{}/{}", kind, name)}};
 }
 
-// Returns the OpenAPI `content` object for `answer`: the name of a schema, or media types separated
-// by spaces. Client generators treat `format: binary` as raw bytes.
+// Returns the OpenAPI `content` object of a body. `answer` is the name of the body's schema, or a
+// list of media types separated by spaces. Client generators treat `format: binary` as raw bytes.
 Json content(std::string_view answer) {
   if (answer.find('/') == std::string_view::npos)
     return {{"application/json", {{"schema", ref("schemas", answer)}}}};
