@@ -21,11 +21,11 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
 
   void set_capacity(std::uint64_t max_bytes) { max_bytes_ = max_bytes; }
 
-  // Admits a body for `network` (network_of()). The caller must keep the result until `body` is
-  // sent. Returns null if the body does not fit in the memory limit. If the network already
-  // receives another body, the bodies of all networks together must fit in half of the limit. A
-  // text counts with its size. Shared memory counts once, even if several connections send it.
-  // Stored bytes, static memory and bodies smaller than kSmall bytes do not count.
+  // Admits a body for a client in `network` (network_of()). The caller must keep the result until
+  // `body` is sent. Returns null if `body` and all bodies being sent exceed the memory limit, or
+  // half of the limit if a counted body is already being sent to the same network. A std::string
+  // counts with its size. SharedBytes count once, even if several connections send them.
+  // StoredBytes, static memory and bodies smaller than kSmall bytes do not count.
   std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
   // Whether the body would be admitted if no other responses were being sent.

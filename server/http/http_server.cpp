@@ -9,8 +9,8 @@
 namespace vitrine::server {
 namespace {
 
-// Interval between two sweeps. A connection that may no longer continue must end within one second,
-// which includes this interval and the time for the check.
+// Interval between two calls of sweep(). A long-lived connection that may no longer continue must
+// end within one second, which includes this interval and the time for the check.
 constexpr std::chrono::milliseconds kSweepInterval{500};
 
 // Sends `text` without waiting for the peer. The text is lost if the socket cannot accept it at
