@@ -33,7 +33,7 @@ class PathParameters {
  public:
   static constexpr std::size_t kMost = 4;  // largest number of parameters in one path
 
-  // Returns the text that replaces `{name}`. Precondition: the request's route has that parameter.
+  // Returns the text that replaces `{name}`. The path of the request's route must contain `{name}`.
   std::string_view operator[](std::string_view name) const;
 
   // Adds a parameter. Returns false if there are kMost parameters already.
