@@ -180,7 +180,7 @@ Expected<void> PublishedModels::forget_if_changed() {
 
 Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   std::uint64_t refreshed = 0, before = 0;
-  std::vector<RecordVersion> held;  // not pointers, which reserve_copy() would take for visitors
+  std::vector<RecordVersion> held;  // no pointers: reserve_copy() keeps models with other users
   {
     const std::shared_lock lock(mutex_);
     if (is_fresh(now, staleness_ / 2)) return {};
@@ -324,11 +324,11 @@ Expected<PublishedModels::ModelPointer> PublishedModels::open_file(ModelRecord r
   return model;
 }
 
-// Adds the file to `copying_`. If the disk lacks room for the copy, drops models that nobody else
-// holds; if together they would free too little, keeps them and fails. A model being sent would
-// free its room only later, so it stays. Copies in progress count in full, because it is unknown
-// how much of them is on the disk. File systems report freed room only after seconds, so it is
-// added up.
+// Adds the size of the record's file to `copying_`. If the disk lacks room for a copy of the file,
+// first drops cached models that nobody else uses. If these would free too little, keeps them and
+// fails. Keeps models that are being sent, because the room of their copies is freed only later.
+// Counts the whole size of copies in progress, because it is unknown how much of each is on the
+// disk. Adds up the freed bytes itself, because file systems report freed space only after seconds.
 Expected<void> PublishedModels::reserve_copy(const ModelRecord& record) {
   const std::unique_lock lock(mutex_);
   const std::uint64_t needed = copying_ + record.file_bytes, room = room_();

@@ -56,8 +56,8 @@ class PublishedModel {
     return file_->read(range.offset, range.length);
   }
 
-  // How often this process had found the file or a local copy of it damaged before it opened this
-  // model.
+  // Number of times that this process found the file or a local copy of it damaged, before it
+  // opened this model.
   std::uint64_t damages() const { return damages_; }
 
   // Returns the manifest as JSON for the API, or null if PublishedModels::keep_manifest() has not
@@ -199,8 +199,8 @@ class PublishedModels {
     ModelId id;
     std::uint64_t version = 0, notes = 0;
   };
-  // A model that is being opened, or that could not be opened. Its result is outdated for a caller
-  // that knows of a later revision or refresh().
+  // An attempt to open a model, which is running or has failed. The attempt is outdated for a
+  // caller that knows of a later revision of the catalogue or of a later refresh().
   struct Opening {
     std::uint64_t revision, refreshed;
     std::optional<Clock::time_point> failed = {};  // set once it has failed
@@ -210,8 +210,8 @@ class PublishedModels {
 
   bool is_fresh(Clock::time_point now, Clock::duration age) const;  // the caller holds the lock
   bool may_show(Clock::time_point now);                             // the caller holds the lock
-  // Whether the result is outdated, or the opening failed `staleness_` ago. The caller holds the
-  // lock.
+  // Whether a new attempt is needed: `opening` is outdated, or it failed at least `staleness_` ago.
+  // The caller holds the lock.
   bool is_outdated(const Opening& opening, Clock::time_point now) const;
   void count_hit(const PublishedModel& model, Clock::time_point now);
   bool may_use_cache(Clock::time_point now) const;  // the caller holds the lock
@@ -226,7 +226,8 @@ class PublishedModels {
   Expected<ModelPointer> open_file(ModelRecord record, std::uint64_t revision);
   Expected<void> reserve_copy(const ModelRecord& record);
   void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
-  // Whether the file was damaged at this revision. The caller holds the lock.
+  // Whether the file was found damaged at this revision of the catalogue. The caller holds the
+  // lock.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
   std::uint64_t count_of_damages(const Sha256& file) const;  // the caller holds the lock
   void withdraw(const Sha256& file);                         // the caller holds the lock
@@ -259,8 +260,8 @@ class PublishedModels {
   // Blocks of the cached public parts. A block that several models have occurs several times.
   std::unordered_multimap<Sha256, PublishedChunk, HashOfHash> chunks_;
   std::unordered_map<Scope, std::shared_ptr<Opening>, HashOfScope> openings_;
-  // Files that are damaged or missing, each with the revision at which the fault was last found.
-  // While the revision stays the same, requests do not read the file again.
+  // Files that are damaged or missing, each with the revision of the catalogue at which the fault
+  // was last found. While the revision stays the same, requests do not read the file again.
   std::map<Sha256, std::uint64_t> damaged_;
   std::set<Sha256> too_large_;  // files of models that need more than max_bytes_
   // For each file: how often the intact file or a local copy of it was found damaged. damages_ is
