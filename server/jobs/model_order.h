@@ -31,7 +31,7 @@ struct ModelOrder {
 // a fault.
 tl::expected<ModelOrder, FieldFaults> parse_model_order(const nlohmann::json& body);
 
-// Writes an order as JSON for the job's record. parse_model_order() reads that text.
+// Formats an order as JSON, which the job's record stores. parse_model_order() parses it.
 std::string to_json_text(const ModelOrder& order);
 
 }  // namespace vitrine::server

@@ -364,9 +364,9 @@ Expected<void> ScanService::check_revolution(const ScanEntry& scan) const {
           scan.id.to_string()));
 }
 
-// Ensures that this daemon's folder holds the scan's revolution. If another daemon measured the
-// steps, they are not in this folder. In this case, the scan restarts, because the table has moved
-// since.
+// Ensures that this daemon's data folder contains the steps of the scan's current revolution. If
+// another daemon measured these steps, they are in its own data folder. In this case, the scan
+// restarts with a new revolution, because the table has moved since.
 Expected<void> ScanService::settle_revolution(JobRun& run, ScanEntry& scan) {
   const std::filesystem::path folder = folder_of(scan.id);
   const auto is_here = holds_revolution(folder, scan.revolution);
@@ -576,7 +576,7 @@ Expected<bool> ScanService::may_be_public(const JobRun& run, const ScanOrder& or
          (order.is_public_as_before && (*before)->state == ModelState::kPublished);
 }
 
-// Makes `built` the scan's model.
+// Makes `built` the scan's model, unless it is a draft and the scan's current model is published.
 Expected<void> ScanService::show(const JobRun& run, bool is_public, const BuiltModel& built) {
   auto entry = options_.jobs.find_scan(run.job().scan.value_or(ScanId()));
   if (!entry) return tl::unexpected(entry.error());
