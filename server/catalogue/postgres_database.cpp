@@ -10,7 +10,7 @@ namespace vitrine::server::postgres {
 namespace {
 
 constexpr std::chrono::seconds kPause{1};  // pause after a failed attempt to reach the server
-// Time between two messages that the lock's holder sends to the server.
+// Time between two messages that the holder of the lock sends to the server, to keep the lock.
 constexpr std::chrono::seconds kBeat{3};
 constexpr const char* kEndsWhenSilent = "SET idle_session_timeout = '15s'";
 // The number of the advisory lock of the catalogue.

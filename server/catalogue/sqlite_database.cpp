@@ -160,8 +160,8 @@ CREATE INDEX model_guard ON model(
 )sql",
     // Triggers derive these tables from the rows of `model`. `model_index` has a small row for each
     // model. `facet_value` has the values of the facets; the column `facets` lists their ids.
-    // `model_words` is a full-text index without a copy of the texts, so the text of a row is
-    // needed to remove it.
+    // `model_words` is a full-text index without a copy of the texts, so the removal of a row needs
+    // the row's text.
     R"sql(
 CREATE TABLE facet_value (
   id INTEGER PRIMARY KEY, name TEXT NOT NULL, value TEXT NOT NULL, UNIQUE (name, value)
@@ -366,7 +366,7 @@ std::shared_ptr<sql::Database> newest_tables() {
 }
 
 Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::path& file) {
-  ensure_private_file(file);  // SQLite gives the files beside it the same permissions
+  ensure_private_file(file);  // SQLite gives the files -wal and -shm the same permissions
   try {
     auto database = std::make_shared<SqliteDatabase>(file.string());
     const auto connection = database->lease();
