@@ -128,7 +128,8 @@ Response in_pages(const Request& request, Services& services, Index&& index, Pag
   return page(*models, asked->after);
 }
 
-// Returns the response with a Cache-Control field that forbids caches to store it.
+// Marks the response as private (Caching::kPrivate): caches must not store it, and pages of other
+// origins must not read it.
 inline Response for_caller(Response response) {
   response.caching = Caching::kPrivate;
   return response;

@@ -81,10 +81,11 @@ class OpenModels {
     checked_.reset();
   }
 
-  // Whether all models are current. Returns true at once if no model has changed and no file was
-  // found damaged since the last call. Finds damage without opening a file, because fetching a new
-  // copy may take long. If the catalogue or the store cannot be read, a model counts as current,
-  // because the cache still serves it; the next call checks it again.
+  // Whether all open models are current, as is_current() defines it. Returns true at once if no
+  // model has changed and no file was found damaged since the last call. Notices damage without
+  // opening a file, because fetching a new copy may take long. If the catalogue or the store cannot
+  // be read, a model counts as current, because the cache still serves it; the next call checks it
+  // again.
   bool are_current(bool has_token, PublishedModels& cache) {
     const auto revision = cache.revision();
     if (!revision) return true;

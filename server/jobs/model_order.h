@@ -23,7 +23,7 @@ struct ModelOrder {
   bool z_is_up = false;
 
   // Repairs and losses that the client's build of an uploaded .pmesh file reported, one line for
-  // each kind. Unused for a mesh, because the server itself builds meshes.
+  // each kind. Unused if a mesh was uploaded, because the server then builds the model itself.
   std::string repairs;
 };
 

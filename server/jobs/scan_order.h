@@ -20,7 +20,7 @@ struct ScanOrder {
   std::string scanner;  // name of the scanner
   acquisition::ScanRequest request;
   // Number of the calibration. If 0, a new scan uses the newest calibration for its camera and
-  // region, and a rebuild uses the calibration of its scan.
+  // sensor region, and a rebuild uses the calibration of its scan.
   int calibration = 0;
 
   int bits = 0;  // see BuildOptions::bits

@@ -365,7 +365,7 @@ Expected<void> ScanService::check_revolution(const ScanEntry& scan) const {
 }
 
 // Ensures that this daemon's data folder contains the steps of the scan's current revolution. If
-// another daemon measured these steps, they are in its own data folder. In this case, the scan
+// another daemon measured these steps, they are in that daemon's folder. In this case, the scan
 // restarts with a new revolution, because the table has moved since.
 Expected<void> ScanService::settle_revolution(JobRun& run, ScanEntry& scan) {
   const std::filesystem::path folder = folder_of(scan.id);

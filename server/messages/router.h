@@ -80,7 +80,7 @@ enum class Executor : std::uint8_t {
   kWorker,   // a worker thread: the handler may wait for the catalogue and read from the disk;
              // callers take turns
   kDisk,     // a thread for handlers that wait for durable writes or for the store's lock
-  kCompute,  // a thread for long computations; callers take turns; one task per target
+  kCompute,  // a thread for long computations; callers take turns; one task per target at a time
   kDevice,   // a thread for handlers that wait for devices, for up to several seconds
   kUrgent,   // a thread for emergency stops only: no rate limit or queue delays them
 };
