@@ -63,9 +63,9 @@ std::shared_ptr<sql::DatabaseConnection> PostgresDatabase::lease() {
           }};
 }
 
-// Holds the lock and sends a message to the server every few seconds. If this process is suspended
-// or the network is down, the messages stop. The server then closes the connection and gives the
-// lock to the next process.
+// The database lock (lock()). Sends a message to the server every few seconds. If this process is
+// suspended or the network is down, the messages stop. The server then closes the connection and
+// gives the lock to the next process.
 class PostgresDatabase::Lock final : public ExclusiveLock {
  public:
   Lock(std::shared_ptr<PostgresDatabase> database, std::unique_ptr<PostgresConnection> connection)

@@ -44,7 +44,7 @@ class PostgresDatabase final : public sql::Database,
   // connection for queries.
   std::binary_semaphore own_turn_{1};
   // Idle connection for the database lock. Only the thread that has acquired own_turn_ uses it.
-  // Null while the lock is held, or if there is no idle connection.
+  // Null while the database lock is held, or if there is no idle connection.
   std::unique_ptr<PostgresConnection> locking_;
 };
 

@@ -60,10 +60,10 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
   // the waiter's strand.
   bool begins(const std::shared_ptr<Waiter>& waiter);
   // Moves as many of the owner's tasks to `waiting_` as its share allows, or fewer if memory runs
-  // out. The caller must hold the lock.
+  // out. The caller must hold mutex_.
   void admit(const std::string& owner, OwnersTasks& tasks);
   // Begins as many turns as are free, and wakes the waiters except `here`. `here` is null, or the
-  // waiter on whose strand the caller runs. The caller must not hold the lock.
+  // waiter on whose strand the caller runs. The caller must not hold mutex_.
   void give_turns(const std::shared_ptr<Waiter>& here);
   // Removes the next waiter from the queue and begins its turn. Returns null if no turn is free, or
   // no waiter is ready.

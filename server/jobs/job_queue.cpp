@@ -441,8 +441,8 @@ bool JobQueue::is_aside(const JobRun& run) {
 }
 
 // Adds the paused jobs that this daemon must run, including those of scanners that it has acquired
-// recently. Reads each job again under the lock, because another daemon may have resumed or ended
-// the job meanwhile.
+// recently. Reads each job again while it holds mutex_, because another daemon may have resumed or
+// ended the job meanwhile.
 Expected<void> JobQueue::take_up_paused() {
   const auto paused = catalogue_.paused_jobs();
   if (!paused) return tl::unexpected(paused.error());

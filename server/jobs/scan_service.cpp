@@ -343,8 +343,8 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   auto view = station->backend().view(folder_of(scan.id));
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
-  // Checks the revolution again under the lock. remove_data() deletes the revolution first and
-  // acquires the lock afterwards, so the check above may be outdated.
+  // Checks the revolution again while it holds mutex_. remove_data() deletes the revolution first
+  // and acquires mutex_ afterwards, so the check above may be outdated.
   if (auto here = check_revolution(scan); !here) return tl::unexpected(here.error());
   if (views_.size() >= kViews) views_.erase(views_.begin());
   views_[scan.id] = *view;

@@ -148,8 +148,8 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
       return tl::unexpected(measured.error());
     const auto done = store_files(store, catalogue, **lock, **found, record, pmesh, as);
     if (done) return Publication{.id = record.id};
-    // Catalogue::set_state() does not need the lock, so another caller may have changed the model
-    // in the meantime. The loop then tries again with the new version.
+    // Catalogue::set_state() needs no lock of the store, so another caller may have changed the
+    // model in the meantime. The loop then tries again with the new version.
     if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
     refused = done.error();
     tried = (*found)->version;

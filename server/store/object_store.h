@@ -46,7 +46,7 @@ class ObjectStore {
 
   // If the object exists, starts its grace period again. The caller must do this before it removes
   // a reference to the object, because a client may be about to read the object. The caller must
-  // hold the lock. Fails with kIo.
+  // hold the store's lock. Fails with kIo.
   virtual Expected<void> begin_grace(const Sha256& name) = 0;
 
   // Removes remains of interrupted put() calls, and unreferenced objects whose grace period has

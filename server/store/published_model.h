@@ -208,13 +208,13 @@ class PublishedModels {
     std::shared_future<Expected<ModelPointer>> result = promise.get_future().share();
   };
 
-  bool is_fresh(Clock::time_point now, Clock::duration age) const;  // the caller holds the lock
-  bool may_show(Clock::time_point now);                             // the caller holds the lock
+  bool is_fresh(Clock::time_point now, Clock::duration age) const;  // the caller holds mutex_
+  bool may_show(Clock::time_point now);                             // the caller holds mutex_
   // Whether a new attempt is needed: `opening` is outdated, or it failed at least `staleness_` ago.
-  // The caller holds the lock.
+  // The caller holds mutex_.
   bool is_outdated(const Opening& opening, Clock::time_point now) const;
   void count_hit(const PublishedModel& model, Clock::time_point now);
-  bool may_use_cache(Clock::time_point now) const;  // the caller holds the lock
+  bool may_use_cache(Clock::time_point now) const;  // the caller holds mutex_
   Expected<void> forget_if_changed();
   Expected<void> ask_for_changes(Clock::time_point now);
   Expected<std::vector<RecordVersion>> unchanged(const std::vector<RecordVersion>& known);
@@ -225,25 +225,24 @@ class PublishedModels {
   Expected<ModelPointer> open_newest(const Scope& scope, std::uint64_t revision);
   Expected<ModelPointer> open_file(ModelRecord record, std::uint64_t revision);
   Expected<void> reserve_copy(const ModelRecord& record);
-  void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
-  // Whether the file was found damaged at this revision of the catalogue. The caller holds the
-  // lock.
+  void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds mutex_
+  // Whether the file was found damaged at this revision of the catalogue. The caller holds mutex_.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
-  std::uint64_t count_of_damages(const Sha256& file) const;  // the caller holds the lock
-  void withdraw(const Sha256& file);                         // the caller holds the lock
+  std::uint64_t count_of_damages(const Sha256& file) const;  // the caller holds mutex_
+  void withdraw(const Sha256& file);                         // the caller holds mutex_
   void remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
   bool try_to_remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
-  void index_chunks(CachedModel& held);                       // the caller holds the lock
-  CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds the lock
-  void drop_least_recently_used();                            // the caller holds the lock
-  void make_room();                                           // the caller holds the lock
+  void index_chunks(CachedModel& held);                       // the caller holds mutex_
+  CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds mutex_
+  void drop_least_recently_used();                            // the caller holds mutex_
+  void make_room();                                           // the caller holds mutex_
 
   const ObjectStore& store_;
   Catalogue& catalogue_;
   const std::chrono::milliseconds staleness_;
   Post post_;
   Room room_;
-  // Total size of the files that are being copied to the disk. Increases only under the lock.
+  // Total size of the files that are being copied to the disk. Increases only while mutex_ is held.
   std::atomic<std::uint64_t> copying_{0};
 
   std::shared_mutex mutex_;  // guards the members below
