@@ -18,8 +18,8 @@ std::optional<Opening> model_of_chunk(const Request& request, Services& services
   return opening_of(**model, /*has_token=*/false, services.models);
 }
 
-// Returns the model file that decides whether a visitor may see the scan. A caller with a token
-// sees every scan, so no file is needed then.
+// Returns the model file that must be opened to decide whether a visitor may see the scan. Returns
+// nullopt for a caller with a token, who may see every scan.
 std::optional<Opening> model_of_scan(const Request& request, const ScanId& id, Services& services) {
   if (request.caller) return std::nullopt;
   const auto scan = services.scans.find(id);
@@ -38,7 +38,8 @@ std::optional<Opening> model_of_job_in_path(const Request& request, Services& se
   return model_of_scan(request, *(*job)->record.scan, services);
 }
 
-// Returns null if no handler of this path opens a model.
+// Returns the function that finds the model file to open for a request to `path`. Returns null if
+// the handlers of `path` open no model.
 ApiOpeningFinder finder_for(std::string_view path) {
   if (path.find("{id}") != path.npos) {
     if (path.starts_with("/api/v1/models/") || path.starts_with("/models/") ||

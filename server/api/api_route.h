@@ -36,8 +36,8 @@ struct RouteDoc {
 
 // A route of the API. `doc` documents it in the OpenAPI document. The other members mean the same
 // as in Route. If `opens` is null and the executor is kWorker or kCompute, bind() derives
-// Route::opens from the path: it opens the model that the path names, or the model of the scan, job
-// or chunk that the path names.
+// Route::opens from the path. The server then opens the file of the model that the path names, or
+// of the model to which the scan, job or chunk in the path belongs.
 struct ApiRoute {
   Method method = Method::kGet;
   std::string_view path;

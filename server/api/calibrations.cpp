@@ -25,8 +25,8 @@ nlohmann::ordered_json summary_json(const CalibrationSummary& one) {
           {"coverage", one.coverage}};
 }
 
-// Returns a response with the text of a calibration's file, or 404 if `file` is nullopt, because
-// there is no such calibration.
+// Returns a response with `file`, the text of a file of a calibration. Returns 404 if `file` is
+// nullopt, which means that the calibration does not exist.
 Response file_answer(const Expected<std::optional<std::string>>& file, const char* type,
                      const Request& request, Services& services) {
   if (!file) return internal_error(file.error(), request, services);

@@ -13,7 +13,7 @@ Expected<Refiner> opened(const PublishedModel& model) {
   return open_model(*head);
 }
 
-// Reads ranges of a model's file. The bytes that it returns stay valid until the next call.
+// Reads ranges of a model's file. The bytes that read() returns stay valid until the next read().
 class RangeReader {
  public:
   explicit RangeReader(const PublishedModel& model) : model_(model) {}

@@ -31,9 +31,8 @@ Expected<DecodedModel> decoded_model(const PublishedModel& model, const Want& wa
                                      std::optional<std::uint32_t> texture_side,
                                      PictureRoles roles = PictureRoles().set());
 
-// Decodes the coarser levels that an export with several levels of detail has in addition to
-// `finest`, placed like `finest`. Returns them from fine to coarse
-// (codec/build/coarser_levels.h).
+// Decodes the levels of detail that an export contains besides `finest` (see
+// codec/build/coarser_levels.h), turned and scaled like `finest`. Returns them from fine to coarse.
 Expected<std::vector<CoarserLevel>> levels_below(const DecodedModel& finest,
                                                  const PublishedModel& model);
 

@@ -107,8 +107,8 @@ Expected<std::vector<std::uint8_t>> make_compressed(const ExportCache::File& pla
   return make_export(model, order).map(gzip);
 }
 
-// Returns the part of a cache key for the descriptive texts and the choices (unit, up axis and so
-// on).
+// Returns the part of an export's cache key that identifies the descriptive texts and the choices
+// (unit, up axis and so on).
 std::string key_of(const ExportOrder& order) {
   std::string texts;
   const FileDescription& about = order.about;
@@ -122,8 +122,8 @@ std::string key_of(const ExportOrder& order) {
                      static_cast<int>(choices.compression), choices.has_levels);
 }
 
-// Returns the part of a cache key for the texture. Texture sizes that select the same pictures give
-// the same key.
+// Returns the part of an export's cache key that identifies the texture. Texture sizes that select
+// the same pictures give the same key.
 std::string key_of(TextureSide side, ExportKind kind, const Manifest& manifest) {
   if (!side) return "fitting";
   return fmt::format("{}", fmt::join(pictures_to_export(manifest, 0, side, roles_of(kind)), ","));

@@ -16,10 +16,10 @@ namespace {
 
 constexpr const char* kForwardedField = "Vitrine-Passed-On";
 constexpr std::size_t kMostBytes = 64 << 20;  // largest accepted response in bytes
-// The timeout is short because the daemons are on one local network.
+// These two timeouts are short, because the daemons are on one local network.
 constexpr std::chrono::seconds kConnectTimeout{3};
 constexpr std::chrono::seconds kQuickTimeout{5};
-// The timeout allows the turntable to finish a motion before the other daemon responds.
+// This timeout is long, because the other daemon may respond only after its turntable has stopped.
 constexpr std::chrono::seconds kRevolutionTimeout{60};
 
 std::vector<std::string> fields_of(const Request& request) {

@@ -15,9 +15,9 @@
 
 namespace vitrine::server {
 
-// Returns the address of the daemon that drives the scanner; the request must be forwarded there.
-// Returns an empty string if that daemon cannot be reached. Returns nullopt if this daemon drives
-// the scanner, or if another daemon has already forwarded the request to this daemon.
+// Returns the address of the daemon to which the request must be forwarded, because it drives the
+// scanner. Returns an empty string if that daemon cannot be reached. Returns nullopt if this daemon
+// drives the scanner, or if another daemon has already forwarded the request to this daemon.
 std::optional<std::string> forward_address(const std::string& scanner, const Request& request,
                                            Services& services);
 

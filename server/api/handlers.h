@@ -12,8 +12,9 @@ Response show_openapi(const Request& request, Services& services);
 Response show_job_events(const Request& request, Services& services);
 Response show_asset(const Request& request, Services& services);
 
-// Puts the posters of a model into the cache, so that its first visitors do not wait for them. If a
-// poster cannot be made, makes the others and fails; the first request for it tries again.
+// Puts the posters of a model into the cache, so that the model's first visitors do not wait for
+// them. If a poster cannot be made, still makes the others, and then fails. The first request for
+// the missing poster tries to make it again.
 Expected<void> make_posters(const ModelId& id, Services& services);
 
 }  // namespace vitrine::server

@@ -67,7 +67,7 @@ Json picture(const std::string& model, unsigned width) {
           {"height", width}};
 }
 
-// Refers to the page with the model's notes, if there are any.
+// If the model has notes, adds a link to the annotation page with these notes to `container`.
 void add_annotations(Json& container, const std::string& self, const ModelRecord& record) {
   if (record.notes == 0) return;
   container["annotations"] =
@@ -127,7 +127,7 @@ Json provider(const std::string& publisher, const std::string& origin) {
                                                   {"format", "text/html"}}})}}});
 }
 
-// Returns links to the manifest of the model's file, and to its records.
+// Returns links to the list of the model's levels of detail and to its metadata records.
 Json see_also(const std::string& model) {
   Json all = Json::array({{{"id", model + "/manifest"},
                            {"type", "Dataset"},
@@ -143,7 +143,7 @@ Json see_also(const std::string& model) {
   return all;
 }
 
-// Returns the parts that manifests of versions 3 and 4 have in common: everything except the items.
+// Returns the members that IIIF manifests of versions 3 and 4 have in common: all except `items`.
 Json description(const ModelRecord& record, const std::string& origin, std::string_view context,
                  const std::string& self) {
   const std::string id = record.id.to_string();

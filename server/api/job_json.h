@@ -15,8 +15,8 @@ namespace vitrine::server {
 inline constexpr std::string_view kJobStates[] = {"queued", "running", "paused",
                                                   "done",   "failed",  "cancelled"};
 
-// Returns the job's status as clients without a token may see it. Omits messages, which could
-// reveal paths on the server.
+// Returns the job's status as clients without a token may see it. Replaces error messages and
+// notes by general ones, because they could reveal paths on the server. Omits the repairs.
 JobStatus without_reasons(JobStatus job);
 
 nlohmann::ordered_json job_json(const JobStatus& job);
@@ -31,8 +31,8 @@ Response json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
 // log.
 Response refused(const Error& error, const Request& request, Services& services);
 
-// Returns the response to an error of JobQueue::begun_by() or add(): like refused(), except that
-// kBadInput means a faulty Idempotency-Key.
+// Returns the response to an error of JobQueue::begun_by() or add(). Like refused(), but for
+// kBadInput, the 422 response names the header Idempotency-Key as the faulty parameter.
 Response refused_job(const Error& error, const Request& request, Services& services);
 
 // Returns a 422 response that lists the faults of the body.

@@ -78,7 +78,7 @@ class JobEvents final : public EventSource {
   const bool is_for_visitor_;
   Services& services_;
   std::mutex mutex_;                // guards the member below
-  std::optional<Checked> checked_;  // revision and state at which the job was last visible
+  std::optional<Checked> checked_;  // models' revision and job's state when last found visible
 };
 
 // Calls `answer(job)` with the job that the request names. Returns 401 or 404 if there is no job

@@ -21,8 +21,8 @@ struct ModelView {
   // Whether the links of published models include the URL to which viewers report visits.
   bool counts_visits = false;
   std::string origin = {};  // start of the URLs in citations; see origin_of()
-  // The setting `public-url`. Unlike `origin`, does not depend on the request's host, so that a
-  // client may read a model at one host and change it at another.
+  // The setting `public-url`. model_tag() uses it instead of `origin`, which depends on the
+  // request's host: a client may read a model at one host and change it at another.
   std::string public_url = {};
 };
 
@@ -30,7 +30,7 @@ struct ModelView {
 std::string model_json(const ModelRecord& record, const ModelView& view);
 // Like the function above, with the additional members `citation` and `dimensions`: width (x),
 // height (y, upwards) and depth (z) of the presented mesh in the model's unit, or null if the unit
-// is unknown. `manifest` is that of a file with the model's geometry.
+// is unknown. `manifest` describes a file that contains the model's geometry.
 std::string model_json(const ModelRecord& record, const Manifest& manifest, const ModelView& view);
 // Returns the dimensions of the presented mesh in the model's unit, or nullopt if the unit is
 // unknown.
@@ -48,7 +48,8 @@ std::string facets_json(const Facets& facets);
 // coded positions).
 Bounds bounding_box(const Manifest& manifest);
 
-// Returns the bounding box of the presented model in its unit.
+// Returns the bounding box of the model in the model's unit, after it was turned and scaled as the
+// record's presentation states.
 Bounds presented_box(const ModelRecord& record, const Manifest& manifest);
 
 // Formats the manifest. If there is a detail request, adds its expected result as `expect`.

@@ -15,7 +15,7 @@
 namespace vitrine::server {
 namespace {
 
-constexpr double kMostAccuracy = 1e6;  // largest accuracy, in the model's unit
+constexpr double kMostAccuracy = 1e6;  // largest allowed `accuracy`, in the model's unit
 
 // Checks whether an order can be carried out now, and returns its faults. The webhook must be
 // allowed. The upload must be complete and accessible to the caller. The model to replace must
@@ -204,7 +204,7 @@ static Response change_model(const Request& request, Services& services) {
   return with_record(request, services, [&](const ModelRecord& before) {
     const auto wanted = changed(before, request.body);
     if (!wanted) return invalid(wanted.error(), request);
-    // A change keeps the geometry, so the manifest from before serves for the dimensions.
+    // A change keeps the geometry, so the manifest before the change still gives the dimensions.
     const FoundModel shown = find_visible(before.id, /*has_token=*/true, services.models).model;
     const auto model = change(services.store, services.catalogue, *wanted, &services.quota);
     if (!model) return refused_change(model.error(), before, request, services);

@@ -28,7 +28,8 @@ Response stored(const std::shared_ptr<const PublishedModel>& model, ByteRange ra
 }
 
 // Returns the head of the model's file. If the model has a presentation or notes, the field
-// Vitrine-Presentation states this, so that viewers need no second request.
+// Vitrine-Presentation contains the presentation and the number of notes, so that viewers need no
+// second request for them.
 Response head_of(const std::shared_ptr<const PublishedModel>& model) {
   const Presentation& presentation = model->record().presentation;
   const std::uint64_t notes = model->record().notes;

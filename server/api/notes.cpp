@@ -16,7 +16,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// A kind of document, and the name of its list in requests and responses.
+// A kind of document about a model: its notes or its tours. `name` is the member with the list of
+// notes or tours in requests and responses, and `check` finds the faults of this list.
 struct NoteDocument {
   NoteKind kind;
   const char* name;
@@ -38,7 +39,7 @@ Response show_document(const NoteDocument& document, const Request& request, Ser
   });
 }
 
-// Returns the first faults of a body.
+// Returns the faults of a request's body, but at most kMost of them.
 FieldFaults faults_of(const NoteDocument& document, const nlohmann::json& body) {
   constexpr std::size_t kMost = 100;  // bounds the response to a large body with many faults
   FieldFaults faults;
@@ -75,9 +76,9 @@ Response no_model(const Request& request) {
   return problem(404, "there is no such model", request.id);
 }
 
-// Returns the response to a PUT that did not store the document because the model was removed, or
-// because another request has changed the document. Returns nullopt if it did the latter, and this
-// request replaces any document.
+// Returns the response to a PUT that stored nothing, because another request has removed the model
+// or changed the document meanwhile. Returns nullopt if the document was changed and the PUT has no
+// If-Match field. The caller then replaces the changed document.
 std::optional<Response> after_conflict(const ModelId& id, const Request& request,
                                        Services& services) {
   const auto model = services.catalogue.find(id);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves OAI-PMH 2.0. All callers see the published models only, whether or not they have a token.
+// Serves OAI-PMH 2.0, a protocol by which other catalogues collect metadata. All callers see the
+// published models only, whether or not they have a token.
 #include "server/records/oai.h"
 
 #include <chrono>

@@ -53,7 +53,7 @@ std::string sitemap_entry(std::string_view element, std::string_view origin,
   return fmt::format("<{0}><loc>{1}{2}</loc></{0}>\n", element, origin, path);
 }
 
-// Returns the entries of the gallery and of the collections, at most kMostListed of them.
+// Returns the sitemap entries of the gallery and of the first kMostListed collections.
 std::string first_entries(const std::vector<std::string>& collections, std::string_view origin) {
   std::string entries = sitemap_entry("url", origin, "/");
   const std::size_t most = std::min<std::size_t>(collections.size(), kMostListed);
@@ -112,7 +112,7 @@ static Response show_viewer(const Request& request, Services& services) {
   });
 }
 
-// Shows a collection as long as a published model belongs to it.
+// Returns the page of a collection, or 404 if no published model belongs to the collection.
 static Response show_collection(const Request& request, Services& services) {
   const std::string name = collection_in(request);
   const auto found =
@@ -143,7 +143,7 @@ Response show_asset(const Request& request, Services& services) {
   return page(request.path, request, services);
 }
 
-// Tells search engines to index the collection and its models, but no pages that need a token.
+// Asks search engines not to visit the console and the pages of scans, and names the sitemap.
 static Response show_robots(const Request& request, Services& services) {
   return revalidated("text/plain; charset=utf-8",
                      fmt::format("User-agent: *\nDisallow: /console\nDisallow: /scans/\n"
@@ -151,8 +151,8 @@ static Response show_robots(const Request& request, Services& services) {
                                  origin_of(request, services)));
 }
 
-// Lists the pages of the published models and of their collections (sitemaps.org). If they are too
-// many for one sitemap, lists the sitemaps.
+// Returns a sitemap (sitemaps.org) of the pages of the published models and of their collections.
+// If these are too many for one sitemap, returns a sitemap index.
 static Response show_sitemap(const Request& request, Services& services) {
   const std::string origin = origin_of(request, services);
   const auto collections = services.catalogue.collections();
@@ -174,7 +174,7 @@ static Response show_sitemap(const Request& request, Services& services) {
   return in_pages(request, services, index, models_page);
 }
 
-// Browsers request this path even if a page does not link to it.
+// Browsers request /favicon.ico even if a page does not link to it.
 static Response show_favicon(const Request& request, Services& services) {
   return page("/favicon.svg", request, services);
 }

@@ -39,7 +39,7 @@ bool is_number(std::string_view text) {
 }
 
 bool is_collection(std::string_view text) {
-  constexpr std::size_t kMost = 3 * 4096;  // a line of text, with each byte percent-encoded
+  constexpr std::size_t kMost = 3 * 4096;  // a name of 4096 bytes, each percent-encoded
   const auto name = text.size() <= kMost ? decode_path(text) : std::nullopt;
   return name && !name->empty();
 }

@@ -27,7 +27,8 @@ std::optional<unsigned> read_width(const Query& query) {
   return width == std::end(kPosterWidths) ? std::nullopt : std::optional(*width);
 }
 
-// Returns the framing of the view that the presentation chooses for posters.
+// Returns the camera's framing for a poster: the view that the presentation defines for posters, or
+// else its initial view, or else a default view.
 Framing frame_of(const TriangleMesh& mesh, const Presentation& presentation, unsigned width) {
   const auto& view = presentation.poster ? presentation.poster : presentation.view;
   Framing frame = frame_around(mesh, width, view ? direction_of(*view) : Framing{}.toward);
@@ -39,8 +40,8 @@ Framing frame_of(const TriangleMesh& mesh, const Presentation& presentation, uns
 
 // Renders the model from the viewpoint of its posters, with one triangle per two pixels. More
 // triangles would not be visible, because the model covers about half of the picture and hides half
-// of its own triangles. The texture has up to four pixels per pixel of the poster, because some of
-// its area is unused.
+// of its own triangles. The texture has up to four pixels per pixel of the poster, because part of
+// the texture's area is unused.
 Expected<std::vector<std::uint8_t>> make_poster(const PublishedModel& model, unsigned width) {
   const auto decoded =
       decoded_model(model, WantTriangles{std::uint64_t{width} * width / 2}, 2 * width);

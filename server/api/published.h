@@ -16,12 +16,14 @@
 
 namespace vitrine::server {
 
-// Returns the bytes of `range` as a body. The body keeps the model alive and its file open.
+// Returns the bytes `range` of the model's file as a body. The body keeps the model alive and its
+// file open.
 inline Body stored_body(const std::shared_ptr<const PublishedModel>& model, ByteRange range) {
   return StoredBytes{{model, &model->file()}, range.offset, range.length};
 }
 
-// Returns the start of absolute URLs. See server/records/links.h.
+// Returns the start of absolute URLs, such as "https://museum.example"; see
+// server/records/links.h.
 inline std::string origin_of(const Request& request, const Services& services) {
   return origin_of(request, services.settings.get().public_url);
 }
@@ -126,7 +128,8 @@ Response in_pages(const Request& request, Services& services, Index&& index, Pag
   return page(*models, asked->after);
 }
 
-// Marks the response as private to this caller.
+// Marks the response as private (Caching::kPrivate): caches must not store it, and pages of other
+// origins must not read it.
 inline Response for_caller(Response response) {
   response.caching = Caching::kPrivate;
   return response;

@@ -57,14 +57,14 @@ struct Services {
 
   BusyStreams busy_streams = {};
 
-  // Limits on the number of requests that are being forwarded. Each forwarded request keeps a
-  // worker thread waiting until the other daemon responds. There are separate limits for requests
-  // without a token, requests with a token, and emergency stops. One address may use at most half
-  // of the limit for requests without a token. The worker pool has extra threads
-  // (WorkerOptions::waiting_threads), so that a quarter of the pool, the share of one token, is
-  // larger than the limit. Therefore only forwarded requests wait for another daemon; other
-  // requests and the watchdog do not. The number of threads for emergency stops exceeds the limit
-  // by two, so that forwarded stops cannot occupy all of them.
+  // Limits on the number of requests that are being forwarded. Each forwarded request occupies a
+  // worker thread until the other daemon responds. There are separate limits for requests without a
+  // token, requests with a token, and emergency stops. One address may use at most half of the
+  // limit for requests without a token. The worker pool has kWaitingThreads additional threads, so
+  // that other requests do not wait for another daemon. One token may occupy a quarter of the pool,
+  // which is more than the limit, so forwarded requests cannot use up a token's share either. The
+  // threads for emergency stops exceed their limit by two, so that forwarded stops cannot occupy
+  // all of them.
   static constexpr std::size_t kMostForwarded = 8;  // limit for each of the three kinds of requests
   static constexpr unsigned kWaitingThreads = 4 * kMostForwarded;
   static constexpr unsigned kUrgentThreads = kMostForwarded + 2;

@@ -64,8 +64,9 @@ struct StreamClient {
   }
 };
 
-// Whether the client may still see the model, and its file is still the one that the stream opened
-// and was not found damaged since. `now` is the result of a new lookup of the model.
+// Whether a stream may continue with the model `opened`: the client may still see the model, and
+// the model's file was neither replaced nor found damaged since. `now` is the result of a new
+// lookup.
 bool is_current(const PublishedModel& opened, const FoundModel& now) {
   return now && *now && (*now)->record().file == opened.record().file &&
          (*now)->damages() == opened.damages();
@@ -142,7 +143,8 @@ class ModelStreamHost : public StreamHost {
     co_return co_await find_on_worker(*id);
   }
 
-  // Answers from memory if possible. Otherwise looks up the model in the catalogue again.
+  // Uses only the cache of models if the cache is up to date. Otherwise reads the catalogue on a
+  // worker thread.
   asio::awaitable<bool> is_current(StreamedModel model) override {
     const ModelRecord& opened = model->record();
     if (!client_.caller && cached_visible(opened.id, false, services_.models) == model)

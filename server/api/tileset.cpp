@@ -73,7 +73,7 @@ class Tileset {
   const Manifest& manifest_;
   Bounds box_;                         // of the presented model, in its unit
   double metres_;                      // length of the model's unit in metres
-  double metres_in_file_;              // length of 1 in the coordinates of the file, in metres
+  double metres_in_file_;              // metres per unit of the file's coordinates, as presented
   std::vector<std::uint32_t> levels_;  // the levels of the tiles, from fine to coarse
 };
 

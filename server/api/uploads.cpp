@@ -83,14 +83,14 @@ void add_state(Response& response, const Upload& upload) {
   response.fields.emplace_back("Upload-Expires", http_date(upload.expires / 1000));
 }
 
-// Returns the unfinished job that needs an upload, or nullopt if there is none.
+// Returns the unfinished job that uses the upload, or nullopt if there is none.
 Expected<std::optional<JobRecord>> job_of(const UploadId& upload, Services& services) {
   return services.scans.jobs().job_where(
       [&](const JobRecord& job) { return PublishJobs::upload_of(job) == upload; });
 }
 
-// Ends an upload and frees its bytes, unless a job needs it. If the catalogue cannot be read, a job
-// may need the upload, so the upload stays until it expires.
+// Removes an upload and its bytes, unless a job uses it. If the catalogue cannot be read, a job may
+// use the upload, so the upload stays until it expires.
 void discard(const UploadId& upload, Services& services) {
   const auto held = services.uploads.hold();
   if (const auto job = job_of(upload, services); job && !*job)
@@ -99,9 +99,9 @@ void discard(const UploadId& upload, Services& services) {
 
 // Writes the pieces of a body to an upload as they arrive. Responds when all pieces are on the
 // disk. If the body does not match the client's checksum, restores the upload's previous state. If
-// the disk has no room for the body, ends the upload, because it would take the room of other
-// uploads. If the same request created the upload, any refusal ends the upload, because the client
-// never learns its ID.
+// the disk is full, removes the upload, because its bytes would take up the space of other uploads.
+// If the same request created the upload, any error removes the upload, because the client never
+// learns the upload's ID.
 class UploadSink final : public BodySink {
  public:
   UploadSink(Response answer, UploadWriter writer, std::optional<BodyChecksum> checksum,

@@ -3,9 +3,9 @@
 // or jobs calls these functions.
 //
 // A caller with a token sees everything. A visitor, who has no token, sees the public part of
-// published models: no draft, no level finer than the public limit, no earlier file. A visitor sees
-// a scan's points, profile, record and job as long as these reveal nothing that the scan's model
-// hides. A request for a chunk by its hash alone finds only chunks of public parts
+// published models: no draft, no level finer than the public limit, no replaced file. A visitor
+// sees a scan's points, profile, record and job as long as these reveal nothing that the scan's
+// model hides. A request for a chunk by its hash alone finds only chunks of public parts
 // (PublishedModels::find_chunk).
 #pragma once
 

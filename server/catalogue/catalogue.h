@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The catalogue of models. It stores each model's metadata and the location of each chunk's bytes.
-// It is the only mutable part of an installation: the objects that it refers to are immutable.
+// A model changes only in the catalogue, because the objects that it refers to are immutable.
 #pragma once
 
 #include <cstdint>
@@ -252,9 +252,10 @@ class Catalogue {
   // Data cached from the catalogue is valid as long as the number stays the same.
   virtual Expected<std::uint64_t> revision() = 0;
 
-  // Sets the function that is called after a published model was withdrawn, removed or given other
-  // chunks by this object. The function receives the model's previous chunks, some of which other
-  // published models may still have. Call when_hidden() before other threads use the catalogue.
+  // Sets the function that this object calls after it has withdrawn or removed a published model,
+  // or replaced the model's chunks. The function receives the model's previous chunks, some of
+  // which other published models may still have. Call when_hidden() before other threads use the
+  // catalogue.
   using ChunksHidden = std::function<void(std::vector<Sha256> chunks)>;
   virtual void when_hidden(ChunksHidden hidden) = 0;
 };

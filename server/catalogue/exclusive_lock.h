@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lock that at most one daemon of an installation holds at a time.
+// A lock that has at most one holder at a time among all processes that use an installation.
 #pragma once
 
 #include "codec/core/expected.h"
@@ -12,7 +12,7 @@ class ExclusiveLock {
   virtual ~ExclusiveLock() = default;
 
   // Succeeds if the lock is still held. Fails with kIo if the lock was lost. The caller must then
-  // stop its work, because another daemon may hold the lock.
+  // stop its work, because another process may hold the lock.
   virtual Expected<void> check() const = 0;
 };
 

@@ -19,7 +19,8 @@ namespace vitrine::server {
 
 enum class JobKind : std::uint8_t { kScan = 0, kCalibrate = 1, kReprocess = 2, kPublish = 3 };
 
-// Whether a job of this kind needs the scanner exclusively. Jobs of other kinds run concurrently.
+// Whether a job of this kind needs the scanner exclusively. Jobs of other kinds can run while the
+// scanner is in use.
 constexpr bool needs_scanner(JobKind kind) {
   return kind == JobKind::kScan || kind == JobKind::kCalibrate;
 }
@@ -54,8 +55,8 @@ struct JobRecord {
   // Number of runs that were started since a run last ended properly. More than 1 if a daemon died
   // during a run.
   std::uint32_t attempts = 0;
-  // Increases each time a daemon claims the job, or a client cancels it while no daemon works on
-  // it. A write with a smaller value is refused.
+  // Increases each time a daemon claims the job, or a client cancels the job while no daemon works
+  // on it. The catalogue refuses to store a record with a smaller value.
   std::uint64_t fence = 0;
   // Repairs and losses of the build, one line for each kind. Empty if there were none.
   std::string repairs = {};
@@ -93,9 +94,9 @@ struct ScanEntry {
   // measured the scan since, and the steps in the folder cannot be used. Empty if an earlier
   // version of Vitrine began the scan.
   std::string revolution = {};
-  // The hash of the geometry that was built from the scan as `model` (geometry_hash()). nullopt if
-  // it is not known. In that case, clients without a token do not see the scan, because `model` may
-  // show another object by now.
+  // The hash of the geometry of `model` that was built from the scan (geometry_hash()); nullopt if
+  // unknown. If it is unknown, clients without a token do not see the scan, because the file of
+  // `model` may have been replaced by a file that shows another object.
   std::optional<Sha256> built = {};
 
   bool operator==(const ScanEntry&) const = default;
@@ -155,8 +156,9 @@ class JobCatalogue {
                              const std::optional<IdempotencyKey>& key) = 0;
 
   // Both overloads replace a stored record. `by` is the claim of the job that measures the scan.
-  // The lease of a job ends unless the new state is kRunning. Fails with kState if the record does
-  // not exist, or if another daemon has claimed or ended the job since it was read.
+  // The first overload ends the job's lease unless the new state is kRunning. Both fail with kState
+  // if the record does not exist, or if another daemon has claimed or ended the job since the
+  // caller read or claimed it.
   virtual Expected<void> update(const JobRecord& job) = 0;
   virtual Expected<void> update(const ScanEntry& scan, const JobClaim& by) = 0;
 
@@ -173,10 +175,10 @@ class JobCatalogue {
   // requested. Fails with kState if another daemon has claimed or ended the job; the caller must
   // then abandon the job.
   virtual Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) = 0;
-  // Cancels a job. If no daemon works on the job, ends the job at time `now`. Its state is then
-  // kCancelled, or kDone if a daemon had stored the job's model before that daemon died. If a
-  // daemon works on the job, that daemon receives the request when it renews its lease. Returns the
-  // changed job. Fails with kState if the job does not exist or has ended.
+  // Cancels a job. If no daemon works on the job, ends the job at time `now`, in milliseconds since
+  // 1970, UTC. Its state is then kCancelled, or kDone if a daemon had stored the model and died. If
+  // a daemon works on the job, that daemon receives the request when it renews its lease. Returns
+  // the changed job. Fails with kState if the job does not exist or has ended.
   virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
   // Ends the leases of all jobs of `holder`, a daemon that no longer works on them.
   virtual Expected<void> drop_leases(const std::string& holder) = 0;

@@ -191,8 +191,8 @@ class PostgresStatement final : public sql::Statement {
 
 }  // namespace
 
-// The values in `url` override the defaults before it in the list of parameters. If the URL is
-// malformed, libpq's message is not reported, because it may quote parts of the password.
+// The parameters before "dbname" are defaults, which the parameters in `url` override. If the URL
+// is malformed, libpq's message is not reported, because it may quote parts of the password.
 PostgresConnection::PostgresConnection(const std::string& url) {
   PQconninfoOption* const options = PQconninfoParse(url.c_str(), nullptr);
   if (options == nullptr)

@@ -14,9 +14,9 @@ namespace vitrine::server::postgres {
 struct OpenDatabase {
   std::shared_ptr<sql::Database> database;
   std::shared_ptr<sql::Database> separate;  // the same database, through other connections
-  // Acquires a lock that only one daemon on this database can hold at a time. The lock is lost when
-  // its connection ends. The server closes a connection that is silent for 15 seconds. Fails with
-  // kIo.
+  // Acquires a lock that has at most one holder at a time among all processes that use the
+  // database. The lock is lost when its connection ends. The server closes this connection if it
+  // receives no message for 15 seconds. Fails with kIo.
   std::function<Expected<std::shared_ptr<const ExclusiveLock>>()> lock;
 };
 

@@ -10,7 +10,7 @@ namespace vitrine::server::postgres {
 namespace {
 
 constexpr std::chrono::seconds kPause{1};  // pause after a failed attempt to reach the server
-// Time between two messages that the lock's holder sends to the server.
+// Time between two messages that the holder of the lock sends to the server, to keep the lock.
 constexpr std::chrono::seconds kBeat{3};
 constexpr const char* kEndsWhenSilent = "SET idle_session_timeout = '15s'";
 // The number of the advisory lock of the catalogue.
@@ -63,9 +63,9 @@ std::shared_ptr<sql::DatabaseConnection> PostgresDatabase::lease() {
           }};
 }
 
-// Holds the lock and sends a message to the server every few seconds. If this process is suspended
-// or the network is down, the messages stop. The server then closes the connection and gives the
-// lock to the next process.
+// The database lock (lock()). Sends a message to the server every few seconds. If this process is
+// suspended or the network is down, the messages stop. The server then closes the connection and
+// gives the lock to the next process.
 class PostgresDatabase::Lock final : public ExclusiveLock {
  public:
   Lock(std::shared_ptr<PostgresDatabase> database, std::unique_ptr<PostgresConnection> connection)

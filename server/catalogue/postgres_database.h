@@ -39,11 +39,12 @@ class PostgresDatabase final : public sql::Database,
   // Until this time, calls fail without an attempt to connect, because a recent attempt failed.
   std::chrono::steady_clock::time_point away_until_{};
 
-  // Held by the one thread of this process that holds the database lock of lock() or waits for it.
-  // That lock has a connection of its own, because its holder needs another one for queries.
+  // Ensures that only one thread of this process at a time waits for or holds the database lock
+  // (lock()). The lock has a connection of its own, because the thread that holds it needs another
+  // connection for queries.
   std::binary_semaphore own_turn_{1};
   // Idle connection for the database lock. Only the thread that has acquired own_turn_ uses it.
-  // Null while the lock is held, or if there is no idle connection.
+  // Null while the database lock is held, or if there is no idle connection.
   std::unique_ptr<PostgresConnection> locking_;
 };
 

@@ -110,9 +110,10 @@ void insert_chunks(DatabaseConnection& connection, const ModelId& model,
   }
 }
 
-// Sets the time of the model's last change to now, by the trigger on this column. The last
-// statement of a transaction calls it: a harvester that reads the catalogue before the commit does
-// not see the change, and would miss it if its time were much earlier.
+// Sets the time of the model's last change to now, through a trigger of the table `model_index`.
+// Call this right before a transaction is committed. A harvester that reads the catalogue before
+// the commit does not see the change, and would always miss the change if the recorded time were
+// much earlier than the commit.
 void stamp_change(DatabaseConnection& connection, const ModelId& model) {
   const ScopedStatement row(connection.prepare(kStampChange));
   row->bind(model.bytes()).any();

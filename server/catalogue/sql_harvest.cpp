@@ -14,7 +14,8 @@ using sql::DatabaseConnection;
 using sql::ScopedStatement;
 using sql::Statement;
 
-// Returns the condition on rows of `model_index` that the query states, without its cursor.
+// Returns the SQL condition on rows of `model_index` for the query, without the condition for the
+// query's cursor.
 std::string harvest_condition(const HarvestQuery& query) {
   std::string condition = "state = 1";
   if (query.model) condition += " AND model = ?";
@@ -47,8 +48,8 @@ std::int64_t read_clock(DatabaseConnection& connection) {
   return row->step() ? row->integer(0) / 1000 : 0;
 }
 
-// A cursor replaces the start of the period, so that the database finds the first row by both
-// columns of its index.
+// Returns the query without `from` if it has a cursor. The cursor then limits the start of the
+// period, so that the database finds the first row by both columns of the index model_by_change.
 HarvestQuery from_cursor(HarvestQuery query) {
   if (!query.after) return query;
   if (query.from && query.after->changed < *query.from) query.after = {*query.from, ModelId()};

@@ -232,8 +232,8 @@ class SqlJobs final : public JobCatalogue {
       std::string places = "?";
       for (std::size_t i = 1; i < kinds.size(); ++i)
         places += ",?";
-      // An owner's running jobs count as its first turns, so that owners with fewer running jobs
-      // come first.
+      // Numbers the jobs of each owner and scanner, running jobs first, and orders the waiting jobs
+      // by this number. Owners with fewer running jobs therefore come first.
       const ScopedStatement rows(connection.prepare(fmt::format(
           "SELECT {0} FROM job JOIN (SELECT id AS waiting, row_number() OVER "
           "(PARTITION BY owner, scanner ORDER BY CASE WHEN {2} THEN 1 ELSE 0 END, id) AS place "

@@ -160,8 +160,8 @@ CREATE INDEX model_guard ON model(
 )sql",
     // Triggers derive these tables from the rows of `model`. `model_index` has a small row for each
     // model. `facet_value` has the values of the facets; the column `facets` lists their ids.
-    // `model_words` is a full-text index without a copy of the texts, so the text of a row is
-    // needed to remove it.
+    // `model_words` is a full-text index without a copy of the texts, so the removal of a row needs
+    // the row's text.
     R"sql(
 CREATE TABLE facet_value (
   id INTEGER PRIMARY KEY, name TEXT NOT NULL, value TEXT NOT NULL, UNIQUE (name, value)

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kMostFaults = 20;
 
-// Whether the connection's last error reports a damaged file. Returns false if the operating system
-// refused an operation.
+// Whether the connection's last error means that the file is damaged or that parts of it cannot be
+// read. Returns false for other errors, for example if the file cannot be opened.
 bool is_damage(const SqliteHandle& database) {
   const int code = sqlite3_errcode(database.handle());
   return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_IOERR;

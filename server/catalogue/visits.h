@@ -19,7 +19,7 @@ namespace vitrine::server {
 struct VisitCounts {
   std::uint64_t visits = 0;
   std::uint64_t seconds = 0;   // time in which the model was visible
-  std::uint64_t levels = 0;    // sum of the finest level that each visit reached
+  std::uint64_t levels = 0;    // sum over the visits of the number of the finest level reached
   std::uint64_t complete = 0;  // visits that reached the finest level of the model
 
   VisitCounts& operator+=(const VisitCounts& more) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits how many tasks may run or wait at the same time, in total and per address. If the limit
-// per address is smaller than the capacity, the last quarter of the capacity is only for addresses
-// that have no task yet.
+// Limits how many tasks may run or wait at the same time, in total (`capacity`) and per address. If
+// the limit per address is smaller than the capacity, the last quarter of the capacity is only for
+// addresses that have no admitted task.
 #pragma once
 
 #include <cstddef>

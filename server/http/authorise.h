@@ -12,7 +12,7 @@ namespace vitrine::server {
 // The credentials of one request.
 struct Credentials {
   const RequestHeader& header;
-  std::string_view remote;  // the client's address
+  std::string_view remote;  // the client's IP address
   std::string_view request_id;
 };
 

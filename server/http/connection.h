@@ -31,7 +31,8 @@ struct Connection : std::enable_shared_from_this<Connection> {
   // Called to end a WebSocket or an event stream; empty for other responses.
   std::function<void()> on_drain;
 
-  // Sets the deadline after which ConnectionSet::sweep() closes the socket. Costs one atomic store.
+  // Sets the deadline after which ConnectionSet::sweep() closes the socket or, if a body is being
+  // read, cancels the read. Costs one atomic store.
   void expires_after(Clock::duration time) {
     deadline.store((Clock::now() + time).time_since_epoch().count(), std::memory_order_relaxed);
   }

@@ -65,7 +65,7 @@ void ConnectionSet::remove(const Connection& connection) {
   if (on_empty) on_empty();
 }
 
-// Decrements the count of a network. The caller must hold the lock.
+// Decrements the number of connections of a network. The caller must hold mutex_.
 void ConnectionSet::count_less(const std::string& network) {
   const auto count = of_network_.find(network);
   if (--count->second == 0) of_network_.erase(count);

@@ -42,7 +42,8 @@ class ConnectionSet {
   // Changes the limits for new connections. Open connections stay open.
   void set_capacity(std::size_t capacity, std::size_t per_address);
 
-  // Closes every connection whose deadline has passed.
+  // Closes every connection whose deadline has passed. If such a connection is reading a body, only
+  // cancels the read (Connection::reads_body).
   void sweep();
 
   // Asks every connection to end: idle ones at once, others after their current response. Calls

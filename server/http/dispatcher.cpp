@@ -116,8 +116,9 @@ std::string owner_of(const Exchange& exchange) {
   return exchange.caller ? exchange.caller->token.to_string() : network_of(exchange.client.address);
 }
 
-// Returns the owner of a lookup of the request's token: its network. Emergency stops have another
-// owner, so that they do not wait for other lookups of their network.
+// Returns the owner under which the lookup of the request's token waits for its turn: the client's
+// network. Emergency stops get another owner, so that they do not wait for other lookups of the
+// same network.
 std::string lookup_owner_of(const Exchange& exchange) {
   return (is_urgent(*exchange.route) ? "stop " : "") + network_of(exchange.client.address);
 }
@@ -291,7 +292,8 @@ asio::awaitable<void> Dispatcher::handle(const Request& request, Exchange& excha
 
 // Opens the file that the handler needs, on threads that only open files. If handlers opened large
 // files themselves, they would occupy the handlers' threads and delay requests for other files. If
-// the handler needs no such file and runs on a worker, calls `run` and returns true.
+// the handler needs no such file and runs on a worker, calls `run` and returns true. Otherwise
+// returns false; the caller must then run the handler.
 asio::awaitable<bool> Dispatcher::open_first(const Request& request, const Exchange& exchange,
                                              const std::function<void()>& run) {
   const Route& route = *exchange.route;

@@ -17,7 +17,8 @@ class Dispatcher {
 
   // Counts the request towards the client's request rate if the response is an error or comes from
   // no route. Such responses are logged, so their rate must be limited. A request that has already
-  // been counted is not counted again. If the client exceeds the rate, the response becomes 429.
+  // been counted is not counted again, and an emergency stop with a valid token is never counted.
+  // If the client exceeds the rate, the response becomes 429.
   void count_error(Exchange& exchange);
 
   // Sets exchange.response. Returns false if there is no response to send, because the peer has

@@ -12,7 +12,7 @@ namespace vitrine::server {
 namespace {
 
 // Whether the peer has disconnected. The caller must poll this function, because no read is pending
-// that would report it. Bytes that the peer has sent stay in the socket.
+// that would report the disconnection. Bytes that the peer has sent stay in the socket.
 bool has_left(Connection& connection) {
   char byte;
   const ssize_t count =

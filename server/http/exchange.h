@@ -23,7 +23,8 @@ struct Exchange {
   // Index of the route's path in Router::templates(), or SIZE_MAX if no route matches.
   std::size_t route_template = SIZE_MAX;
   PathParameters parameters;
-  // Null until a route is found, and null if the response needs no handler.
+  // The route whose handler makes the response. Null before Dispatcher::find_route() sets it, and
+  // if the response needs no handler.
   const Route* route = nullptr;
   std::optional<Caller> caller;
   nlohmann::json body = nlohmann::json::object();

@@ -8,8 +8,8 @@
 namespace vitrine::server {
 namespace {
 
-// If memory runs out, a waiter may not be woken for its turn, or may stay outside the queue. Each
-// waiter therefore checks again after this time.
+// If memory runs out, give_turns() may fail to wake a waiter, and admit() may fail to put a waiter
+// into the queue. Each waiter therefore checks again after this time.
 constexpr std::chrono::seconds kRetryAfter{1};
 
 }  // namespace

@@ -32,8 +32,8 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
   void stop();  // no turn begins after this call
 
  private:
-  // A task that waits or runs. The destructor ends its turn, if it has begun. As destructors must
-  // not throw, end() and the functions that it calls work even if memory runs out.
+  // A task that waits or runs. The destructor ends the task's turn, if the turn has begun. As
+  // destructors must not throw, end() and the functions that it calls work even if memory runs out.
   struct Task {
     Task(std::string its_owner, std::string its_target)
         : owner(std::move(its_owner)), target(std::move(its_target)) {}
@@ -54,14 +54,14 @@ class FairTurns : public std::enable_shared_from_this<FairTurns> {
     std::list<std::shared_ptr<Waiter>> further;
   };
   void push(const std::shared_ptr<Waiter>& waiter);
-  // Whether the waiter's turn has begun. Begins it if one is free for it. Must be called on the
-  // waiter's strand.
+  // Begins the waiter's turn if one is free. Returns whether the turn has begun. Must be called on
+  // the waiter's strand.
   bool begins(const std::shared_ptr<Waiter>& waiter);
   // Moves as many of the owner's tasks to `waiting_` as its share allows, or fewer if memory runs
-  // out. The caller must hold the lock.
+  // out. The caller must hold mutex_.
   void admit(const std::string& owner, OwnersTasks& tasks);
-  // Begins as many turns as are free. `here` is null, or the waiter on whose strand the caller
-  // runs. The caller must not hold the lock.
+  // Begins as many turns as are free, and wakes the waiters except `here`. `here` is null, or the
+  // waiter on whose strand the caller runs. The caller must not hold mutex_.
   void give_turns(const std::shared_ptr<Waiter>& here);
   // Removes the next waiter from the queue and begins its turn. Returns null if no turn is free, or
   // no waiter can begin.

@@ -29,7 +29,7 @@ class RequestReader {
 
   asio::awaitable<ReadResult> read_header(RequestParser& parser, Exchange& exchange);
 
-  // Reads the body, which has at most `most` bytes, as JSON into exchange.body.
+  // Reads the body as JSON into exchange.body. Rejects a body of more than `most` bytes.
   asio::awaitable<ReadResult> read_json(RequestParser& parser, Exchange& exchange,
                                         std::size_t most);
 
@@ -49,8 +49,8 @@ class RequestReader {
   asio::awaitable<ReadResult> meet_expectation(const RequestHeader& header, Exchange& exchange);
   ReadResult rejected(const boost::system::error_code& error, Exchange& exchange) const;
 
-  // Limit on the buffer's size in bytes. Beast itself does not limit the size of extensions in a
-  // chunked body.
+  // Limit on the buffer's size in bytes. Beast itself does not limit the size of the chunk
+  // extensions in a chunked body ([RFC9112] section 7.1.1).
   static constexpr std::size_t kMaxBuffer = 64 * 1024;
 
   Connection& connection_;

@@ -30,9 +30,9 @@ bool is_audited(const Exchange& exchange) {
   return is_change(exchange) && exchange.route->role != Role::kNone;
 }
 
-// Whether the log may omit this request if its address sends many such requests. True if the
-// request is beyond a rate limit, or is a refused change. A client can cause any number of such
-// requests.
+// Whether the logs may omit this request if its address sends many such requests. True if the
+// request exceeded a rate limit, or tried to change data and was refused: any client can send
+// unlimited numbers of such requests.
 bool is_rationed(const Exchange& exchange, unsigned status) {
   const bool is_refused = status >= 400 && status < kUnanswered;
   return exchange.is_beyond_rate || (is_refused && is_change(exchange));
@@ -111,8 +111,7 @@ std::string ResponseWriter::logged_address(const Client& client) const {
   return server_.options().shortens_addresses ? shortened(client.address) : client.address;
 }
 
-// Writes the request to the audit log, which no setting disables. Omits a refused request if its
-// address sends too many of them.
+// Writes the request to the audit log, which no setting disables.
 void ResponseWriter::audit(const Exchange& exchange, const RequestHeader& request,
                            std::string_view route, unsigned status) const {
   const std::string token = exchange.caller ? exchange.caller->token.to_string() : "-";

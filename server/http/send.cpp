@@ -23,8 +23,8 @@ class SendDeadline {
  public:
   SendDeadline(Connection& connection, Pace pace) : connection_(connection), pace_(pace) {}
 
-  // Sets the deadline to `timeout` from now. If there is a minimum rate, the deadline is at most
-  // `timeout` after the time at which `sent` bytes are due at that rate.
+  // Sets the deadline to `timeout` from now. If there is a minimum rate, the deadline is no later
+  // than `timeout` after the time in which `sent` bytes arrive at exactly that rate.
   void renew(std::uint64_t sent) {
     Connection::Clock::duration left = pace_.timeout;
     if (pace_.min_rate > 0) {
@@ -47,7 +47,7 @@ asio::awaitable<bool> wait_writable(Connection& connection) {
   co_return !error;
 }
 
-// Number of bytes that one connection may send before other connections are served.
+// Number of bytes that one connection may send before the thread serves other connections.
 constexpr std::uint64_t kBurst = 4 << 20;
 
 // Sends `size` bytes and returns how many were sent, which are fewer if the connection ends. Calls

@@ -4,8 +4,8 @@
 namespace vitrine::server {
 namespace {
 
-// Returns the share of a capacity that one address or owner may use, so that it cannot lock out
-// others.
+// Returns a quarter of a capacity, rounded up. One address or owner may use only this share, so
+// that it cannot lock out others.
 constexpr std::size_t quarter(std::size_t capacity) {
   return (capacity + 3) / 4;
 }

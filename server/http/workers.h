@@ -85,7 +85,8 @@ class Workers {
 
   static constexpr std::size_t kDeviceThreads = 4, kMaxDeviceTasks = 32;
   static constexpr std::size_t kDiskThreads = 4, kMaxDiskTasks = 64;
-  // The number of opening threads is large, because they often wait for a disk or a bucket.
+  // The number of threads that open files is large, because they often wait for a disk or an S3
+  // bucket.
   static constexpr std::size_t kOpeningThreads = 8;
   static constexpr std::size_t kLookupThreads = 4;
 
@@ -97,7 +98,7 @@ class Workers {
   asio::thread_pool openings_{kOpeningThreads};
   asio::thread_pool lookups_{kLookupThreads};
   asio::thread_pool urgent_;
-  // Turns on the threads of pool_, computations_, openings_ and lookups_.
+  // These queues assign the threads of pool_, computations_, openings_ and lookups_ to tasks.
   const std::shared_ptr<FairTurns> worker_turns_, computing_turns_;
   const std::shared_ptr<FairTurns> opening_turns_ = std::make_shared<FairTurns>(kOpeningThreads);
   const std::shared_ptr<FairTurns> lookup_turns_ = std::make_shared<FairTurns>(kLookupThreads, 1);

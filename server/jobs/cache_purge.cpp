@@ -12,8 +12,9 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kPurgeDeadline{10};  // time limit of each request
-// A purge waits this long, until all daemons have noticed the change of the catalogue. If a cache
-// forgot a chunk earlier, it could fetch the chunk again from a daemon that still serves it.
+// A purge starts this long after a change of the catalogue, when all daemons have noticed the
+// change. If a cache forgot a chunk earlier, it could fetch the chunk again from a daemon that
+// still serves the chunk.
 constexpr std::chrono::milliseconds kAllHaveNoticed{250};
 
 // Whether the status means that the cache no longer has the chunk. Caches respond with 404 or 412
@@ -22,8 +23,8 @@ bool is_forgotten(long status) {
   return status / 100 == 2 || status == 404 || status == 412;
 }
 
-// Whether no published model has the chunk. Returns true if the catalogue cannot be read: if a
-// cache then forgets a public chunk, it only has to fetch it again.
+// Whether no published model has the chunk. Also returns true if the catalogue cannot be read: a
+// cache that wrongly forgets a public chunk only has to fetch the chunk again.
 bool is_hidden(const Sha256& chunk, Catalogue& catalogue) {
   const auto place = catalogue.find_chunk(chunk);
   return !place || !*place;

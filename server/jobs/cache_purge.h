@@ -29,7 +29,8 @@ class CachePurge {
   // Like forget(), but skips chunks that belong to a published model.
   void forget_hidden(std::vector<Sha256> chunks);
 
-  // Drops the chunks that are waiting. Call this before the catalogue is destroyed.
+  // Ends the thread and drops the chunks whose requests have not been sent. Call this before the
+  // catalogue is destroyed.
   void stop();
 
  private:

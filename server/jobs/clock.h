@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current time, in the unit of all times in the catalogue.
+// The current time as a number of milliseconds, as in the records of models, jobs and scans.
 #pragma once
 
 #include <chrono>

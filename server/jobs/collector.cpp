@@ -22,8 +22,9 @@ Expected<std::size_t> Collector::forget_jobs(std::int64_t now) {
   return needs_.jobs.forget(before(kKeyAge), before(kJobAge));
 }
 
-// Removes objects only while it holds the store's lock, because another process may have stored an
-// object but not yet added a reference to it. If the lock is lost, removes no more objects.
+// Removes objects only while it holds the store's lock. Without the lock, it could remove an object
+// that another process has just stored but not yet referenced. If the lock is lost, removes no more
+// objects.
 Expected<Collector::Collected> Collector::collect(std::int64_t now) {
   const auto in_use = uploads_in_use();
   if (!in_use) return tl::unexpected(in_use.error());

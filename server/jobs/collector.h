@@ -57,7 +57,7 @@ class Collector {
   void run(const std::stop_token& stop, std::chrono::seconds pause);
 
   const CollectorDependencies needs_;
-  std::mutex mutex_;  // guards the members below
+  std::mutex mutex_;  // guards hurries_
   std::condition_variable_any changed_;
   bool hurries_ = false;
   std::jthread thread_;

@@ -20,7 +20,8 @@ std::string executor_name(const JobRecord& job) {
 constexpr std::uint32_t kMaxAttempts = 3;
 constexpr std::chrono::milliseconds kBeat{500};
 constexpr std::chrono::seconds kLease{15};
-// How long a daemon's claim on a webhook call lasts. Afterwards, another daemon may make the call.
+// Duration of a daemon's claim on the webhook of a job. Afterwards, another daemon may call the
+// webhook.
 constexpr std::chrono::minutes kWebhookTimeout{10};
 constexpr std::uint32_t kAtATime = 128;  // largest number of jobs that one search finds
 
@@ -32,8 +33,8 @@ std::vector<JobKind> kinds_of(const TakenJobs& taken) {
   return kinds;
 }
 
-// Whether the last kMaxAttempts daemons that claimed the job died while it was running. The job may
-// then be the cause.
+// Whether the daemon died during each of the job's last kMaxAttempts runs. The job may then be the
+// cause.
 bool is_hopeless(const JobRecord& job) {
   return job.state == JobState::kRunning && job.attempts >= kMaxAttempts;
 }
@@ -104,8 +105,9 @@ void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   post(run);
 }
 
-// Ends a hopeless job: as done if its model was stored before the daemon died, otherwise as failed.
-// Claims the job first, so that a daemon that still runs it can no longer change it.
+// Ends a hopeless job (is_hopeless()): as done if the job's model was stored before the daemon
+// died, otherwise as failed. First claims the job, so that no daemon that still runs it can change
+// it.
 void JobQueue::give_up(const SharedRun& run) {
   const auto taken = catalogue_.claim(run->job().id, {taken_.holder, kLease});
   if (!taken || !*taken) return lose(run);
@@ -439,8 +441,8 @@ bool JobQueue::is_aside(const JobRun& run) {
 }
 
 // Adds the paused jobs that this daemon must run, including those of scanners that it has acquired
-// recently. Each job is read again under the lock, because another daemon may have resumed or ended
-// it meanwhile.
+// recently. Reads each job again while it holds mutex_, because another daemon may have resumed or
+// ended the job meanwhile.
 Expected<void> JobQueue::take_up_paused() {
   const auto paused = catalogue_.paused_jobs();
   if (!paused) return tl::unexpected(paused.error());
@@ -454,9 +456,9 @@ Expected<void> JobQueue::take_up_paused() {
   return {};
 }
 
-// Looks for jobs to run. If the catalogue was unreachable, other daemons may have been unable to
-// renew their leases, too. Therefore waits for the duration of one lease before it claims jobs
-// whose leases have expired.
+// Looks for at most `limit` jobs to run. After the catalogue was unreachable, takes no jobs with
+// expired leases for the duration of one lease, because the daemons that run these jobs may have
+// been unable to renew the leases.
 void JobQueue::look_for_jobs(std::uint32_t limit) {
   const auto believes_from = [this] {
     const std::scoped_lock lock(mutex_);

@@ -51,8 +51,8 @@ class JobRun {
   JobStatus status() const;  // may be called after the job has ended, too
   JobRecord job() const { return status().record; }
   StopRequest stop_request() const;
-  // Returns the number of emergency stops of the scanner that the client knew of when it requested
-  // the job.
+  // Returns the number of emergency stops of the scanner that had occurred when a client requested
+  // or resumed the job.
   std::uint64_t stops_known() const;
 
   // Reports progress. `stage` is one word. `progress` is the completed share of the whole job, from
@@ -65,9 +65,9 @@ class JobRun {
   // Resets the progress to 0, because the work so far has to be repeated.
   void restart();
 
-  // Reports in `note` what the operator has to do, and pauses the job until it is resumed. Returns
-  // false if a stop is requested instead. If the daemon ends, the job stays paused, and its task
-  // restarts after the job is resumed.
+  // Sets the job's note to `note`, an instruction to the operator, and waits until the job is
+  // resumed. Meanwhile, the job is paused. Returns false if a stop is requested instead. If the
+  // daemon ends, the job stays paused, and its task restarts after the job is resumed.
   bool await_resume(std::string_view stage, double progress, std::string_view note);
 
  private:
@@ -95,7 +95,7 @@ class JobRun {
 };
 
 // Calls `react` from another thread when a stop is requested, until this object is destroyed. If a
-// stop was requested before, calls it at once. A run can have one Reaction at a time.
+// stop was requested before, the constructor calls `react`. A run can have one Reaction at a time.
 class Reaction {
  public:
   Reaction(JobRun& run, std::function<void()> react) : run_(run) {
@@ -139,8 +139,8 @@ class JobQueue {
   // claimed the webhook meanwhile. Check this right before the call.
   bool may_notify(const JobId& id);
 
-  // Continues the unfinished jobs of an earlier run of this daemon. Paused jobs stay paused. If
-  // each of the last three daemons that ran a job died, ends the job: as done if its model was
+  // Continues the unfinished jobs of an earlier run of this daemon. Paused jobs stay paused. If the
+  // daemon died during each of the last three runs of a job, ends the job: as done if its model was
   // stored, otherwise as failed. After this call, beat() runs twice per second until stop().
   Expected<void> start();
 
@@ -234,10 +234,10 @@ class JobQueue {
   const TakenJobs taken_;
   std::function<void(const JobStatus&)> ended_;
 
-  mutable std::mutex mutex_;                       // guards the members below
+  mutable std::mutex mutex_;                       // guards the members up to is_stopping_
   std::map<JobId, SharedRun> runs_;                // unfinished jobs
   std::map<JobId, std::weak_ptr<JobRun>> others_;  // jobs of other daemons that watch() returned
-  // waiting jobs that need no scanner
+  // the jobs that wait for the executor of jobs without a scanner
   FairQueue<SharedRun> without_scanner_;
   std::vector<SharedRun> again_;  // jobs to claim when the catalogue is reachable again
   // Until this time, expired leases of other daemons still count as valid, because these daemons
@@ -246,7 +246,7 @@ class JobQueue {
   std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;
   bool is_stopping_ = false;
 
-  std::mutex storing_;  // guards the members below
+  std::mutex storing_;  // guards unstored_
   std::map<JobId, JobRecord> unstored_;
 
   std::optional<PeriodicTask> lease_renewal_;

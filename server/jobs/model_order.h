@@ -23,7 +23,7 @@ struct ModelOrder {
   bool z_is_up = false;
 
   // Repairs and losses that the client's build of an uploaded .pmesh file reported, one line for
-  // each kind. Unused for a mesh, because the server itself builds meshes.
+  // each kind. Unused if a mesh was uploaded, because the server then builds the model itself.
   std::string repairs;
 };
 
@@ -31,7 +31,7 @@ struct ModelOrder {
 // a fault.
 tl::expected<ModelOrder, FieldFaults> parse_model_order(const nlohmann::json& body);
 
-// Writes an order as JSON for the job's record. parse_model_order() reads that text.
+// Formats an order as JSON, which the job's record stores. parse_model_order() parses it.
 std::string to_json_text(const ModelOrder& order);
 
 }  // namespace vitrine::server

@@ -25,7 +25,8 @@ using FieldFaults = std::vector<FieldFault>;
 
 inline constexpr std::string_view kPlacementNames[] = {"midpoint", "pyramid"};
 
-// Reads the members of a JSON object. If a member is absent or wrong, its variable stays unchanged.
+// Reads the members of a JSON object into variables. If a member is absent or invalid, the variable
+// stays unchanged. An invalid member is added to the faults.
 class Fields {
  public:
   Fields(const nlohmann::json& object, std::string prefix, FieldFaults& faults)

@@ -27,7 +27,8 @@ inline DiskLimits disk_limits_of(const Settings& settings) {
   return {.quota = settings.quota_bytes, .reserve = settings.disk_reserve_bytes};
 }
 
-// Returns how many more bytes the disk of the data folder can hold beside disk-reserve.
+// Returns how many more bytes may be written to the disk of the data folder, so that the bytes of
+// the setting disk-reserve stay free.
 inline std::uint64_t room_of(const Settings& settings) {
   const std::uint64_t free = free_space(settings.data);
   return free - std::min(free, settings.disk_reserve_bytes);

@@ -20,7 +20,7 @@ struct ScanOrder {
   std::string scanner;  // name of the scanner
   acquisition::ScanRequest request;
   // Number of the calibration. If 0, a new scan uses the newest calibration for its camera and
-  // region, and a rebuild uses the calibration of its scan.
+  // sensor region, and a rebuild uses the calibration of its scan.
   int calibration = 0;
 
   int bits = 0;  // see BuildOptions::bits
@@ -60,8 +60,9 @@ std::string to_json_text(const CalibrationOrder& order);
 std::string to_json_text(const ScanOrder& order);
 tl::expected<ScanOrder, FieldFaults> parse_kept_order(const nlohmann::json& kept);
 
-// Both functions read a text that to_json_text() has written. The first fails with kState if the
-// text is damaged. The second returns the default order for jobs of earlier versions.
+// Both functions parse a text that to_json_text() has written. If the text is malformed, the first
+// function fails with kState. The second returns the default order, because earlier versions of
+// Vitrine stored no text.
 Expected<ScanOrder> stored_scan_order(const std::string& parameters);
 CalibrationOrder stored_calibration_order(const std::string& parameters);
 

@@ -343,8 +343,8 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   auto view = station->backend().view(folder_of(scan.id));
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
-  // Checks the revolution again under the lock. remove_data() deletes the revolution first and
-  // acquires the lock afterwards, so the check above may be outdated.
+  // Checks the revolution again while it holds mutex_. remove_data() deletes the revolution first
+  // and acquires mutex_ afterwards, so the check above may be outdated.
   if (auto here = check_revolution(scan); !here) return tl::unexpected(here.error());
   if (views_.size() >= kViews) views_.erase(views_.begin());
   views_[scan.id] = *view;
@@ -364,9 +364,9 @@ Expected<void> ScanService::check_revolution(const ScanEntry& scan) const {
           scan.id.to_string()));
 }
 
-// Ensures that this daemon's folder holds the scan's revolution. If another daemon measured the
-// steps, they are not in this folder. In this case, the scan restarts, because the table has moved
-// since.
+// Ensures that this daemon's data folder contains the steps of the scan's current revolution. If
+// another daemon measured these steps, they are in that daemon's folder. In this case, the scan
+// restarts with a new revolution, because the table has moved since.
 Expected<void> ScanService::settle_revolution(JobRun& run, ScanEntry& scan) {
   const std::filesystem::path folder = folder_of(scan.id);
   const auto is_here = holds_revolution(folder, scan.revolution);
@@ -576,7 +576,7 @@ Expected<bool> ScanService::may_be_public(const JobRun& run, const ScanOrder& or
          (order.is_public_as_before && (*before)->state == ModelState::kPublished);
 }
 
-// Makes `built` the scan's model.
+// Makes `built` the scan's model, unless it is a draft and the scan's current model is published.
 Expected<void> ScanService::show(const JobRun& run, bool is_public, const BuiltModel& built) {
   auto entry = options_.jobs.find_scan(run.job().scan.value_or(ScanId()));
   if (!entry) return tl::unexpected(entry.error());

@@ -84,10 +84,10 @@ class ScanService {
   // Starts a scan. `order.scanner` must be the name of a configured scanner.
   Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<IdempotencyKey>& key);
   // Starts a job that makes another model from a scan. The scan must have measured steps, and no
-  // other job may use it. If the order needs the scan's pictures, they must have been kept. If
-  // visitors may see only some levels of the scan's current model, the new model becomes a draft,
-  // because its levels differ. `owner` is the token of the client that has ordered the job, if
-  // known; the jobs of different tokens take turns. Does not change the scan's state.
+  // other job may use the scan. If the order needs the scan's pictures, they must have been kept.
+  // If visitors may see only some levels of the scan's current model, the new model becomes a
+  // draft, because its levels differ. `owner` is the token of the client that has ordered the job,
+  // if known; the jobs of different tokens take turns. Does not change the scan's state.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<IdempotencyKey>& key,
                                   const std::optional<TokenId>& owner = {});
@@ -152,7 +152,7 @@ class ScanService {
   std::mutex stopping_;  // lets one stop() run at a time
   std::vector<std::unique_ptr<ScannerBackend>> backends_;
 
-  std::mutex mutex_;                                         // guards the members below
+  std::mutex mutex_;                                         // guards live_ and views_
   std::map<ScanId, Live> live_;                              // running scans
   std::map<ScanId, std::shared_ptr<const ScanView>> views_;  // views of a few ended scans
 

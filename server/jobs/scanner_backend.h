@@ -90,13 +90,14 @@ struct CalibrationSummary {
   double coverage = 0;               // share of the picture that the target covered, 0..1
 };
 
-// A scanner. Only one thread may call the functions up to `close`. Any thread may call the
-// functions after `close`.
+// A scanner. Only one thread at a time may call the functions from identify() to close(). Any
+// thread may call the functions that are declared after close().
 class ScannerBackend {
  public:
   virtual ~ScannerBackend() = default;
 
-  // The functions up to `close` open the devices if they are closed, and close them on an error.
+  // The functions from here to calibrate() close the devices on an error. All except keep_laser()
+  // first open the devices that they need.
   virtual Expected<ScannerIdentity> identify() = 0;
   virtual Expected<void> jog(double degrees) = 0;  // turns the table by an angle
   virtual Expected<void> laser(bool on) = 0;

@@ -69,7 +69,7 @@ bool ScannerClaims::may_take(const std::string& scanner) const {
 }
 
 // Acquires the scanner. Computes the end of the lease from a time before the request to the
-// catalogue, so that this daemon never overestimates it.
+// catalogue, so that this daemon never assumes too late an end.
 void ScannerClaims::take(const std::string& scanner) {
   const Clock until = now() + lease_.time - kMargin;
   const auto epoch = catalogue_.take_scanner(scanner, lease_, address_);

@@ -64,7 +64,7 @@ class ScannerClaims {
   const Lease lease_;
   const std::string address_;
 
-  mutable std::mutex mutex_;  // guards the members below
+  mutable std::mutex mutex_;  // guards the members up to believes_from_
   std::vector<std::string> names_;
   std::map<std::string, HeldScanner> held_;
   std::vector<ScannerDriver> drivers_;  // drivers as last read from the catalogue

@@ -47,7 +47,7 @@ class ScannerStation {
   ScannerStation(ScannerBackend& backend, JobQueue& jobs, std::chrono::milliseconds idle_timeout,
                  std::function<Clock::time_point()> now = Clock::now);
 
-  // Starts the first search for the scanner. Call this once. status() waits briefly for its result.
+  // Starts the first search for the scanner. Call this once. status() waits briefly for the result.
   void look_for_it();
 
   ScannerBackend& backend() { return backend_; }

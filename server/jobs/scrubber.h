@@ -31,8 +31,8 @@ struct ScrubberDependencies {
   // Asks shared caches to forget the blocks of a damaged file, because their copies may be damaged,
   // too. Empty if there are no shared caches.
   std::function<void(std::vector<Sha256> chunks)> forget = {};
-  // Waits until a time and returns whether to continue. If empty, the scrubber waits by itself,
-  // until stop() is called. Tests count the waits.
+  // Waits until the given time and returns whether to continue. If this function is empty, the
+  // scrubber itself waits, at most until stop() is called. Tests set it to count the waits.
   std::function<bool(std::chrono::steady_clock::time_point)> wait_until = {};
 };
 

@@ -45,7 +45,7 @@ class SerialExecutor {
   void work();
 
   const Log& events_;
-  std::mutex mutex_;  // guards the members below
+  std::mutex mutex_;  // guards the members up to when_idle_
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
   bool is_finishing_ = false;

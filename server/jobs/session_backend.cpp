@@ -73,8 +73,8 @@ class SessionView final : public ScanView {
   const std::shared_ptr<const acquisition::Scan> scan_;
 };
 
-// Waits for the end of the scan, reports its progress, and forwards requests to stop it. Returns
-// its final status.
+// Waits for the end of the scan, reports its progress, and pauses or cancels it if the listener
+// demands this. Returns the scan's final status.
 acquisition::ScanStatus follow(acquisition::Scan& scan, ScanListener& listener) {
   bool asked = false;
   std::optional<acquisition::ScanRecord> record;

@@ -44,7 +44,8 @@ void Webhooks::stop() {
     executor->finish();
 }
 
-// Waits before the next attempt. Returns false if stop() is called during the wait.
+// Waits `tries` * `tries` seconds before the next attempt. Returns false if stop() is called during
+// the wait.
 bool Webhooks::pause(int tries) {
   constexpr std::chrono::milliseconds kStep{100};
   for (int i = 0; i < 10 * tries * tries && !is_stopping_; ++i)

@@ -26,8 +26,8 @@ struct WebhookMessage {
   // Called right before the first attempt to send the message. If it returns false, because another
   // daemon has sent or claimed the message, the message is not sent.
   std::function<bool()> may;
-  // Called when the server has accepted the message or the object has given up. Not called after
-  // Webhooks::stop().
+  // Called after the server has accepted the message, or after the last attempt has failed. Not
+  // called after Webhooks::stop().
   std::function<void()> done;
 };
 
@@ -42,9 +42,9 @@ class Webhooks {
 
   bool allows(std::string_view url) const;
 
-  // Posts the message on another thread, with a few retries until the server accepts it, and logs
-  // the outcome. Each server has its own thread, so that an unreachable one does not delay others.
-  // A message that is already waiting is not added again.
+  // Sends the message by POST on another thread, with at most three attempts, and logs the outcome.
+  // Each server has a thread of its own, so that an unreachable server does not delay messages to
+  // other servers. A message that is already waiting is not added again. Returns at once.
   void call(WebhookMessage message);
 
   // Cancels the messages that are being sent and drops all waiting ones.

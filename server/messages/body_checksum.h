@@ -17,8 +17,8 @@ class BodyChecksum {
  public:
   static constexpr std::string_view kAlgorithms = "sha1,sha256,md5";
 
-  // Parses the value of the field: the algorithm's name, a space, and the hash in Base64. Returns
-  // nullopt if the value is malformed or the algorithm is not supported.
+  // Parses the value of an Upload-Checksum field: the algorithm's name, a space, and the hash in
+  // Base64. Returns nullopt if the value is malformed or the algorithm is not supported.
   static std::optional<BodyChecksum> parse(std::string_view field);
 
   void add(std::span<const std::uint8_t> piece);

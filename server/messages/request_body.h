@@ -9,7 +9,7 @@
 
 namespace vitrine::server {
 
-// Largest sizes of a body in bytes: usually, and for routes with BodyKind::kLargeJson.
+// Largest size of a JSON body in bytes: for BodyKind::kJson and for BodyKind::kLargeJson.
 inline constexpr std::size_t kMaxRequestBody = 64 * 1024, kMaxLargeRequestBody = 1024 * 1024;
 inline constexpr int kMaxBodyDepth = 16;           // levels of nested arrays and objects
 inline constexpr std::size_t kMaxForm = 8 * 1024;  // largest size of a form, in bytes
@@ -26,8 +26,8 @@ tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
                                                    std::string_view text,
                                                    std::size_t most = kMaxRequestBody);
 
-// Returns what is wrong with a form `text`, or nullopt: it is too large, or the media type is not
-// application/x-www-form-urlencoded.
+// Returns a fault if the form `text` is larger than kMaxForm, or if the media type is not
+// application/x-www-form-urlencoded. Otherwise returns nullopt.
 std::optional<BodyFault> form_fault(std::string_view media_type, std::string_view text);
 
 }  // namespace vitrine::server

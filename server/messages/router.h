@@ -33,7 +33,7 @@ class PathParameters {
  public:
   static constexpr std::size_t kMost = 4;  // largest number of parameters in one path
 
-  // Returns the text that replaces `{name}`. Precondition: the request's route has that parameter.
+  // Returns the text that replaces `{name}`. The path of the request's route must contain `{name}`.
   std::string_view operator[](std::string_view name) const;
 
   // Adds a parameter. Returns false if there are kMost parameters already.
@@ -80,7 +80,7 @@ enum class Executor : std::uint8_t {
   kWorker,   // a worker thread: the handler may wait for the catalogue and read from the disk;
              // callers take turns
   kDisk,     // a thread for handlers that wait for durable writes or for the store's lock
-  kCompute,  // a thread for long computations; callers take turns; one task per target
+  kCompute,  // a thread for long computations; callers take turns; one task per target at a time
   kDevice,   // a thread for handlers that wait for devices, for up to several seconds
   kUrgent,   // a thread for emergency stops only: no rate limit or queue delays them
 };

@@ -30,8 +30,8 @@ struct FileStamp {
   }
 };
 
-// Thread-safe. Remembers at most kMost files, which takes about 10 MB. When it is full, forgets all
-// files; they are then hashed again.
+// Thread-safe. Remembers at most kMost files, which takes about 10 MB. When this limit is reached,
+// forgets all files; the store then hashes each file again when it opens the file.
 class CheckedObjects {
  public:
   static constexpr std::size_t kMost = 1 << 16;

@@ -9,8 +9,8 @@
 namespace vitrine::server {
 namespace {
 
-// Returns how many bytes of the files the store lacks. A file that is damaged but has its length
-// lacks none, because an intact copy replaces it.
+// Returns how many bytes the store would grow if `files` were stored. A damaged file of the right
+// length adds nothing, because an intact copy replaces it.
 Expected<std::uint64_t> missing_bytes(const ObjectStore& store, std::span<const NamedFile> files) {
   std::uint64_t missing = 0;
   for (const NamedFile& file : files) {

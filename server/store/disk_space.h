@@ -12,7 +12,7 @@
 
 namespace vitrine::server {
 
-// The daemon's limits on disk space, and the folder of the uploads, which count towards them.
+// The daemon's limits on disk space, and the folder of the uploads, which count towards the limits.
 struct StorageLimits {
   DiskLimits disk;
   std::filesystem::path uploads;

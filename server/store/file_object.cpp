@@ -57,8 +57,8 @@ bool is_intact(const Object& object, const Sha256& name, const OnPiece& on_piece
   return hasher.finish() == name;
 }
 
-// Before it reads a piece, asks the kernel to drop its cached copy. Does not drop the following
-// pieces yet, because visitors may need them.
+// Before reading each piece, asks the kernel to drop the cached copy of this piece. Does not drop
+// the following pieces yet, because visitors may need them.
 bool is_intact_on_disk(const Object& object, const Sha256& name, const OnPiece& on_piece) {
   std::uint64_t at = 0;
   const auto forget_next = [&](std::uint64_t length) {

@@ -38,7 +38,7 @@ struct OpenCatalogue {
   // connection.
   std::shared_ptr<sql::Database> database, jobs;
   std::shared_ptr<sql::Database> tokens;  // always has its own connections
-  TakeLock lock;                          // the lock that all users of the store share
+  TakeLock lock;                          // acquires the store's lock
 };
 
 Expected<OpenCatalogue> open_in_folder(const fs::path& folder) {

@@ -13,10 +13,10 @@
 namespace vitrine::server {
 
 struct HeaderChange {
-  // Removes the levels finer than this one. If the number of removed levels would be odd, removes
-  // this level, too, unless it is the base mesh. If any level is removed, also removes the pictures
-  // outside the file's head, because they show more detail than the remaining levels have. Removes
-  // the optional blocks in any case. Nullopt keeps all levels, pictures and optional blocks.
+  // The finest level to keep; nullopt keeps all levels, pictures and optional blocks. If the number
+  // of removed levels would be odd, this level is removed, too, unless it is the base mesh. If any
+  // level is removed, so are the pictures outside the file's head, because they show more detail
+  // than the remaining levels have. The optional blocks are removed in any case.
   std::optional<std::uint32_t> last_level;
   std::optional<std::string> unit;
 };

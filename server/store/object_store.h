@@ -46,13 +46,13 @@ class ObjectStore {
 
   // If the object exists, starts its grace period again. The caller must do this before it removes
   // a reference to the object, because a client may be about to read the object. The caller must
-  // hold the lock. Fails with kIo.
+  // hold the store's lock. Fails with kIo.
   virtual Expected<void> begin_grace(const Sha256& name) = 0;
 
-  // Removes remains of interrupted puts, and unreferenced objects whose grace period has ended.
-  // Objects in `keep` are referenced. The grace period counts from put() or begin_grace(). Returns
-  // the number of objects removed. The caller holds the lock. Fails with kIo if the store fails;
-  // some objects may have been removed before.
+  // Removes remains of interrupted put() calls, and unreferenced objects whose grace period has
+  // ended. `keep` lists the referenced objects. The grace period of an object lasts `grace` from
+  // the last put() or begin_grace(). Returns the number of objects removed. `lock` is the store's
+  // lock. Fails with kIo if the store fails; some objects may have been removed before.
   virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                       const ExclusiveLock& lock) = 0;
 

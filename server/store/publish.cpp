@@ -44,8 +44,9 @@ Expected<void> check_paragraphs(const char* name, const std::string& text) {
               std::string("the ") + name + " is not UTF-8 of at most 16,384 bytes; give another");
 }
 
-// Returns the model with this ID, or otherwise a published model with the same file and texts, so
-// that it is not published twice. Drafts are always added as new models.
+// Returns the model with the ID of `record`, if it exists. Otherwise returns a published model with
+// the same file and texts, so that the same content is not published twice. A draft is always added
+// as a new model.
 Expected<std::optional<ModelRecord>> find_earlier(Catalogue& catalogue, const ModelRecord& record) {
   auto same = catalogue.find(record.id);
   if (!same || *same || record.state == ModelState::kDraft) return same;

@@ -56,8 +56,8 @@ class PublishedModel {
     return file_->read(range.offset, range.length);
   }
 
-  // How often this process had found the file or a local copy of it damaged before it opened this
-  // model.
+  // Number of times that this process found the file or a local copy of it damaged, before it
+  // opened this model.
   std::uint64_t damages() const { return damages_; }
 
   // Returns the manifest as JSON for the API, or null if PublishedModels::keep_manifest() has not
@@ -216,8 +216,8 @@ class PublishedModels {
     ModelId id;
     std::uint64_t version = 0, notes = 0;
   };
-  // A model that is being opened, or that could not be opened. Its result is outdated for a caller
-  // that knows of a later revision or refresh().
+  // An attempt to open a model, which is running or has failed. The attempt is outdated for a
+  // caller that knows of a later revision of the catalogue or of a later refresh().
   struct Opening {
     std::uint64_t revision, refreshed;
     std::optional<Clock::time_point> failed = {};  // set once it has failed
@@ -225,13 +225,13 @@ class PublishedModels {
     std::shared_future<Expected<ModelPointer>> result = promise.get_future().share();
   };
 
-  bool is_fresh(Clock::time_point now, Clock::duration age) const;  // the caller holds the lock
-  bool may_show(Clock::time_point now);                             // the caller holds the lock
-  // Whether the result is outdated, or the opening failed `staleness_` ago. The caller holds the
-  // lock.
+  bool is_fresh(Clock::time_point now, Clock::duration age) const;  // the caller holds mutex_
+  bool may_show(Clock::time_point now);                             // the caller holds mutex_
+  // Whether a new attempt is needed: `opening` is outdated, or it failed at least `staleness_` ago.
+  // The caller holds mutex_.
   bool is_outdated(const Opening& opening, Clock::time_point now) const;
   void count_hit(const PublishedModel& model, Clock::time_point now);
-  bool may_use_cache(Clock::time_point now) const;  // the caller holds the lock
+  bool may_use_cache(Clock::time_point now) const;  // the caller holds mutex_
   Expected<void> forget_if_changed();
   Expected<void> ask_for_changes(Clock::time_point now);
   Expected<std::vector<RecordVersion>> unchanged(const std::vector<RecordVersion>& known);
@@ -246,21 +246,21 @@ class PublishedModels {
   void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
   // Whether the file was damaged at this revision. The caller holds the lock.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
-  std::uint64_t count_of_damages(const Sha256& file) const;  // the caller holds the lock
-  void withdraw(const Sha256& file);                         // the caller holds the lock
+  std::uint64_t count_of_damages(const Sha256& file) const;  // the caller holds mutex_
+  void withdraw(const Sha256& file);                         // the caller holds mutex_
   void remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
   bool try_to_remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
-  void index_chunks(CachedModel& held);                       // the caller holds the lock
-  CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds the lock
-  void drop_least_recently_used();                            // the caller holds the lock
-  void make_room();                                           // the caller holds the lock
+  void index_chunks(CachedModel& held);                       // the caller holds mutex_
+  CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds mutex_
+  void drop_least_recently_used();                            // the caller holds mutex_
+  void make_room();                                           // the caller holds mutex_
 
   const ObjectStore& store_;
   Catalogue& catalogue_;
   const std::chrono::milliseconds staleness_;
   Post post_;
   Room room_;
-  // Total size of the files that are being copied to the disk. Increases only under the lock.
+  // Total size of the files that are being copied to the disk. Increases only while mutex_ is held.
   std::atomic<std::uint64_t> copying_{0};
 
   std::shared_mutex mutex_;  // guards the members below
@@ -277,8 +277,8 @@ class PublishedModels {
   // Blocks of the cached public parts. A block that several models have occurs several times.
   std::unordered_multimap<Sha256, PublishedChunk, HashOfHash> chunks_;
   std::unordered_map<Scope, std::shared_ptr<Opening>, HashOfScope> openings_;
-  // Files that are damaged or missing, each with the revision at which the fault was last found.
-  // While the revision stays the same, requests do not read the file again.
+  // Files that are damaged or missing, each with the revision of the catalogue at which the fault
+  // was last found. While the revision stays the same, requests do not read the file again.
   std::map<Sha256, std::uint64_t> damaged_;
   std::unordered_map<Scope, std::optional<Sha256>, HashOfScope> files_;  // file_of() at revision_
   std::unordered_map<Sha256, Sha256, HashOfHash> geometries_;  // geometry_hash() of opened files

@@ -52,7 +52,8 @@ class Quota {
       : catalogue_(catalogue), uploads_(uploads), bytes_(bytes) {}
 
   // Checks that an upload of `bytes` bytes fits into the quota, together with the models' files and
-  // the other uploads. If it fits, calls `take`, which creates it. Admits one caller at a time.
+  // the other uploads. If it fits, calls `take`, which must create the upload. Only one caller at a
+  // time checks and creates.
   Expected<void> admit(std::uint64_t bytes, const std::function<void()>& take);
 
   // Reserves space for the files of a new model. Files that another model already has need no

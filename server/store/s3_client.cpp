@@ -16,8 +16,8 @@ constexpr std::chrono::seconds kTimeout{5};
 // If a request gets no response, failed requests are not retried for this time.
 constexpr std::chrono::seconds kUnreachable{2};
 
-// Whether another attempt may succeed, because the store is busy (SlowDown) or restarting, or
-// because its proxy cannot reach it.
+// Whether the HTTP status means that another attempt may succeed: the store is busy (SlowDown) or
+// restarting, or a proxy cannot reach the store.
 bool is_passing(long status) {
   constexpr std::array<long, 6> kPassing{408, 429, 500, 502, 503, 504};
   return std::ranges::count(kPassing, status) > 0;

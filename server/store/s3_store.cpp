@@ -134,8 +134,8 @@ Expected<void> S3Store::give_up_uploads(std::int64_t begun_before) {
   return {};
 }
 
-// Lists the grace marks after the objects. Marks that are set while the objects are being listed
-// are therefore seen, too.
+// Lists the objects first and the grace marks afterwards, so that it also sees marks that are set
+// while the objects are being listed.
 Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                      const ExclusiveLock& lock) {
   const auto objects = list(kObjects);

@@ -23,8 +23,8 @@ Expected<StoredFile> to_be_stored(std::span<const std::uint8_t> pmesh);
 
 // Stores the bytes `pmesh`, which `file` describes, and sets `is_new` and `is_repaired`. First
 // checks the SHA-256 of every block, so that visitors receive what the header describes; fails with
-// kBadInput if one is wrong. Then reads the object back. If it is not the file, removes a new
-// object and fails with kIo. The caller holds the store's lock.
+// kBadInput if one is wrong. Then reads the object back. If it differs from `pmesh`, removes the
+// object, unless it existed before, and fails with kIo. The caller holds the store's lock.
 Expected<void> store_file(ObjectStore& store, StoredFile& file,
                           std::span<const std::uint8_t> pmesh);
 

@@ -112,7 +112,8 @@ Uploading<void> UploadWriter::take_back() {
   const ScopedLock lock(file_.get());
   const auto size = size_of(file_.get());
   if (!lock.is_held() || !size) return refused("shorten", errno);
-  // If the size differs, another writer has appended bytes after those of this writer.
+  // If the size differs, another writer has appended bytes after those of this writer. The bytes of
+  // both then stay.
   if (*size != offset_) return {};
   if (::ftruncate(file_.get(), static_cast<off_t>(start_)) != 0) return refused("shorten", errno);
   offset_ = start_;

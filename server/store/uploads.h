@@ -59,7 +59,7 @@ class UploadWriter {
  public:
   Uploading<void> append(std::span<const std::uint8_t> bytes);
 
-  // Removes the bytes that this writer has appended.
+  // Removes the bytes that this writer has appended, unless another writer has appended more bytes.
   Uploading<void> take_back();
 
   // Waits until all appended bytes are on the disk, then returns the new offset.
@@ -107,8 +107,8 @@ class Uploads {
 
   Uploading<std::vector<Upload>> list() const;
 
-  // Acquires the lock on the use of uploads. A caller holds the lock from its check of an upload
-  // until it has used or removed the upload.
+  // Acquires the lock that a caller must hold from its check of an upload until it has added a job
+  // that uses the upload, or has removed the upload.
   std::unique_lock<std::mutex> hold() { return std::unique_lock(use_); }
 
   // Removes uploads that expired before `now`, and remains of interrupted calls. Keeps uploads in

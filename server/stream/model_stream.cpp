@@ -71,8 +71,8 @@ std::uint64_t ModelStream::left_of(std::size_t chunk) const {
 }
 
 // Whether to send one more chunk. Returns true if all bytes, including this chunk, arrive by the
-// deadline. Also returns true if they arrive a little late, but closer to the deadline than without
-// this chunk.
+// deadline. Also returns true if they arrive slightly late (kMostLate), provided that without this
+// chunk, the time left until the deadline would be longer than this delay.
 bool ModelStream::is_in_time(Ends ends, Pacer::Time now) const {
   const double left = (timed_->deadline - now).count();
   const double late = ends.with - left, early = left - ends.without;
@@ -146,8 +146,8 @@ StreamOutput ModelStream::chunk_slice(std::uint32_t most) {
   return Slice{header, chunk.offset + offset, length};
 }
 
-// Returns a promise if none has been sent yet, or if the last one no longer agrees with the
-// measurements. Otherwise returns nullopt.
+// Returns a promise if none has been sent yet, or if the measured rate has changed so much that the
+// last promise is outdated. Otherwise returns nullopt.
 std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time now) {
   const auto& last = timed_->promise;
   if (last) {

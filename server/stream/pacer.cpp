@@ -25,8 +25,9 @@ void Pacer::sent(std::uint64_t bytes, Time now) {
   if (marks_.size() < kMostMarks) marks_.push_back({sent_, now});
 }
 
-// Returns the delay of the newest slice that is known to have arrived. Returns a negative value if
-// there is no new measurement.
+// Returns the time from the sending of the newest acknowledged slice until now, and updates base_.
+// Returns a negative value if no other slice has arrived since the last call, or if base_ is about
+// to be measured again.
 Pacer::Duration Pacer::measure_delay(Time now) {
   const auto open = std::ranges::find_if(marks_, [&](const Mark& m) { return m.end > arrived_; });
   if (open == marks_.begin()) return Duration{-1};
@@ -69,8 +70,8 @@ void Pacer::arrived(std::uint64_t bytes, Time now) {
   window_ = std::clamp(std::max(fitting, more), kLeastWindow, kMostWindow);
 }
 
-// Updates steady_, the rate apart from stalls, after bytes have arrived. Repeated stalls lower this
-// rate, because they show that the link has become slow.
+// Updates steady_, the rate while the link does not stall, after bytes have arrived. Repeated
+// stalls lower this rate, because they show that the link has become slow.
 void Pacer::note_silence(Time now) {
   const bool was_silent = now - heard_ >= kNudge;
   if (was_silent) recovered_ = busy_;
@@ -94,9 +95,9 @@ std::uint32_t Pacer::slice_bytes(double rate) const {
       std::clamp(rate * slice_time_.count(), kLeast, static_cast<double>(kMaxSlice)));
 }
 
-// A measured delay consists of the link's own delay and of queues of other senders, and a
-// connection cannot distinguish the two. Therefore limits the bytes in flight beyond what the
-// connection itself needs. All connections share that limit.
+// A measured delay contains the link's own delay and the queues of other senders, and a connection
+// cannot distinguish the two. Therefore also limits the bytes in flight beyond those that the
+// connection's own delay and queue require. All connections share that limit (kShared).
 std::uint32_t Pacer::room(Time now, std::size_t busy_streams) {
   const double speed = rate(now), sharers = std::max(1.0, static_cast<double>(busy_streams));
   slice_time_ = std::max(kSliceTime, sharers * kSliceCost);

@@ -105,10 +105,10 @@ class Pacer {
   std::vector<Mark> marks_;  // the slices in flight, in order
   std::vector<Sample> samples_;
   bool is_measured_ = false;
-  double steady_ = 0;      // the rate apart from stalls
+  double steady_ = 0;      // the rate while the link does not stall, in bytes per second
   Time heard_{};           // time of the last arrival, or of a send with nothing in flight
   Duration recovered_{0};  // value of busy_ at the end of the last stall
-  Duration base_ = Duration::max();  // the shortest round trip to the client
+  Duration base_ = Duration::max();  // the shortest round trip to the client; max(): not known
   Time base_since_{};
   // If true, room() allows no slice until the bytes in flight have arrived, so that base_ is
   // measured without a queue.

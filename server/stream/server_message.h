@@ -19,8 +19,9 @@ struct ModelMessage {
   std::uint64_t chunks = 0;
   std::uint64_t head_bytes = 0;
   std::uint64_t slice_bytes = 0;  // largest payload of a slice, in bytes
-  std::uint64_t credit = 0;       // remaining credit of the connection
-  std::string presentation = {};  // as JSON; empty if the model is presented as its file is
+  std::uint64_t credit = 0;       // remaining credit of the connection, in bytes
+  // How to present the model, as JSON (client_text()). Empty: as stored, and without notes.
+  std::string presentation = {};
   bool operator==(const ModelMessage&) const = default;
 };
 

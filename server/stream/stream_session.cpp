@@ -139,8 +139,8 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
                     : answer(ClosedMessage{wanted.model, model.error().message});
   }
 
-  // Passes a detail request to the state. If the model was hidden or replaced, also closes the
-  // connection: the client then reconnects and gets the current state.
+  // Passes a detail request to state_. If the model was hidden or replaced, also closes the
+  // connection, so that the client reconnects and gets the current version of the model.
   asio::awaitable<Expected<void>> take_request(const WantMessage& want) {
     const auto model = models_.find(want.model);
     bool is_current = true;

@@ -40,8 +40,7 @@ class StreamState {
   std::optional<Time> wakes(Time now) const;
 
   // Whether the client has granted credit for more bytes than were sent. Acknowledgements then do
-  // not show which bytes have arrived, so the caller must report the bytes still queued in the
-  // kernel.
+  // not show which bytes have arrived, so the caller must call still_queued() from time to time.
   bool is_granted_ahead() const { return granted_ > sent_; }
   // Reports the number of bytes still queued in the kernel. Counts the other sent bytes as arrived.
   void still_queued(std::uint64_t bytes, Time now);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/transport/least_round_trip.h"
 
-// Includes the kernel's header, because glibc's <netinet/tcp.h> lacks tcpi_min_rtt. A file cannot
-// include both.
+// Includes <linux/tcp.h>, because glibc's <netinet/tcp.h> lacks tcpi_min_rtt. The two headers
+// cannot be included in the same file.
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
