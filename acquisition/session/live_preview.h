@@ -20,7 +20,7 @@ struct PreviewFrame {
 };
 
 inline constexpr int kPreviewWidth = 650;
-inline constexpr std::size_t kCloudPoints = 100'000;  // upper limit of the cloud's size
+inline constexpr std::size_t kCloudPoints = 100'000;  // largest number of points in the cloud
 
 class LivePreview {
  public:
