@@ -53,7 +53,7 @@ void add_classification(Xml description, const DescribedModel& model) {
   Xml types = description.append_child("lido:objectClassificationWrap")
                   .append_child("lido:objectWorkTypeWrap");
   const std::string& type = model.text("type");
-  // The element needs a term.
+  // LIDO requires a term in this element.
   add_concepts(types, "lido:objectWorkType", values_in(type).empty() ? "3D model" : type);
 }
 

@@ -128,7 +128,8 @@ bool is_prefix(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, fits);
 }
 
-// Reads the format last: an unknown one is no fault of the arguments, which the response repeats.
+// Reads the format last: if only the format is unknown, the response repeats all arguments, so the
+// others must be valid.
 OaiStep read_selection(const Query& arguments, OaiRequest& request) {
   request.identifier = arguments.get("identifier");
   if (const auto set = arguments.get("set")) {

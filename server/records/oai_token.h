@@ -25,8 +25,8 @@ struct ResumptionToken {
 
 std::string to_text(const ResumptionToken& token);
 
-// Returns nullopt if `text` is not a token. Anybody can write a token: it gives no access to more
-// than the same request without it.
+// Returns nullopt if `text` is not a token. Anybody can write a token, but it gives access to no
+// more than the same request without a token.
 std::optional<ResumptionToken> parse_resumption_token(std::string_view text);
 
 }  // namespace vitrine::server

@@ -16,8 +16,8 @@ class AuditTrail {
  public:
   static constexpr const char* kFile = "audit.log";  // name of the file in the data folder
 
-  // Opens the file in an existing data folder. If it is missing, creates it for the folder's owner.
-  // If this fails with kIo, the caller must not change the installation.
+  // Opens the file in an existing data folder. If the file is missing, creates it for the folder's
+  // owner. If this fails with kIo, the caller must not change the installation.
   static Expected<AuditTrail> open(const std::filesystem::path& folder);
 
   // Appends a line; see CommandRecord.
