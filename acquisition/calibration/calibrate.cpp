@@ -250,7 +250,8 @@ Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Tur
     const int next = static_cast<int>(numbers.size());
     p.pose = numbers.try_emplace(p.pose, next).first->second;
   }
-  // Each pose is judged by a map that is fitted to the other poses.
+  // Cross-validation judges each pose by a map that is fitted to the other poses, which must be at
+  // least two.
   constexpr std::size_t kLeastPoses = 3;
   if (numbers.size() < kLeastPoses) {
     return fail(ErrorCode::kBadInput,

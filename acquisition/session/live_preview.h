@@ -31,7 +31,7 @@ class LivePreview {
   void show(Frame lit);
   void add(const Profile& profile);
 
-  PreviewFrame frame() const;      // returns the last frame; shrinks it here, to keep the scan fast
+  PreviewFrame frame() const;      // returns the last frame, shrunk in the caller's thread
   Profile profile() const;         // returns the last profile
   std::size_t cloud_size() const;  // returns the number of points so far
   // Returns the cloud's points from index `first` on, in mm in the object's frame. The cloud
