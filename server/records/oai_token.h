@@ -16,11 +16,11 @@ namespace vitrine::server {
 // and tokens do not expire.
 struct ResumptionToken {
   const RecordFormat* format = nullptr;
-  std::optional<std::int64_t> from, until;  // as in HarvestQuery
+  std::optional<std::int64_t> from, until;  // times of changes, both inclusive
   std::string collection;                   // empty: all models
   HarvestPlace after;                       // the last model of the previous page
   std::uint32_t cursor = 0;                 // number of records on all previous pages
-  std::uint32_t all = 0;                    // number of records on all pages, at the first page
+  std::uint32_t all = 0;  // number of records on all pages, counted at the first page
 };
 
 std::string to_text(const ResumptionToken& token);

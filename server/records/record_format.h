@@ -15,7 +15,7 @@ struct RecordFormat {
   const char* prefix;         // metadataPrefix of OAI-PMH
   const char* file;           // last part of the record's path, /api/v1/models/{id}/FILE
   const char* label;          // name for people
-  const char* xml_namespace;  // metadataNamespace of OAI-PMH
+  const char* xml_namespace;  // namespace of the format, metadataNamespace of OAI-PMH
   const char* schema;         // URL of the XML schema
 };
 

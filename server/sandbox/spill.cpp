@@ -28,7 +28,8 @@
 namespace vitrine::server {
 namespace {
 
-// Blocks of at least this many bytes may spill. Class Segments allocates blocks of this size.
+// Blocks of at least this many bytes may spill. Class Segments (codec/core/segments.h) allocates
+// blocks of this size.
 constexpr std::size_t kLarge = 8192;
 // The disk space of a freed range is released if the range has at least this many bytes.
 constexpr std::size_t kWorthHole = 1 << 20;

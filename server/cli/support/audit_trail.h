@@ -20,7 +20,8 @@ class AuditTrail {
   // owner. If this fails with kIo, the caller must not change the installation.
   static Expected<AuditTrail> open(const std::filesystem::path& folder);
 
-  // Appends a line; see CommandRecord.
+  // Appends a line about a command: `action` is the command, such as "token create", `target` is
+  // what it changes, and `is_done` is whether the change was made.
   void record(std::string_view action, std::string_view target, bool is_done) const;
 
  private:
