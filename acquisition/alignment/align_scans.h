@@ -19,8 +19,12 @@ struct AlignmentOptions {
 
 // How well two scans agree in the result.
 struct PairQuality {
-  std::size_t from = 0, to = 0;
-  double overlap = 0, rms = 0, crossed = 0;  // same meaning as in PairFit
+  std::size_t from = 0, to = 0;  // indices of the two scans
+  // `overlap`: share of one scan's vertices that lie on the other scan's surface. `rms`: rms
+  // distance of these vertices from that surface, in mm. `crossed`: share of one scan's sight lines
+  // that the other scan's surface crosses. Shares are from 0 to 1. Each value is the larger one of
+  // the two scans.
+  double overlap = 0, rms = 0, crossed = 0;
 };
 
 struct Alignment {

@@ -61,7 +61,8 @@ Columns inverse_of(const Columns& m) {
   return {Vec3{a.x, b.x, c.x}, Vec3{a.y, b.y, c.y}, Vec3{a.z, b.z, c.z}};
 }
 
-// Returns the homography from the laser plane to pixels relative to the middle of the region.
+// Returns the homography from the laser plane to pixels, relative to the middle of the sensor
+// region (Calibration::region).
 std::optional<Columns> to_pixels(const Calibration& calibration) {
   const auto q = quadrangle_of(calibration.map);
   const auto square = q ? from_unit_square(q->at) : std::nullopt;
@@ -94,7 +95,8 @@ std::optional<TablePoint> camera_place(const Calibration& calibration) {
   const Vec3 x = scaled(p) * (front / size), y = scaled(q) * (front / size),
              shift = scaled(origin) * (front / size);
   TurntableAxis axis = calibration.axis;
-  // Moves the axis instead of the point, because about() takes only points of the laser plane.
+  // about() takes only points of the laser plane, but the camera is outside of it. Therefore moves
+  // the axis instead of the camera, by the opposite distance.
   axis.offset += dot(cross(x, y), shift);
   return about(axis, {-dot(x, shift), -dot(y, shift)});
 }

@@ -20,7 +20,8 @@ struct PosesOfPair {
 };
 
 // Returns whether the measurements contradict the pose: the surfaces cross too many sight lines, or
-// the overlapping surfaces are too far apart.
+// the overlapping surfaces are too far apart. `reach` is the distance in mm below which two
+// surfaces count as one.
 bool is_contradicted(const PairFit& fit, double reach);
 
 // Chooses the fit with the largest overlap that the measurements do not contradict. `fits` is the

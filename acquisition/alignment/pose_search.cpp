@@ -11,7 +11,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// smallest accepted ratio of two corresponding edges of a triple
+// Smallest accepted ratio of the shorter to the longer of two corresponding edges of a triple.
 constexpr double kEdgeShare = .9;
 // Least length of a triple's edges, in multiples of `reach`. Shorter triples do not determine a
 // motion well.

@@ -12,8 +12,8 @@
 namespace vitrine::acquisition {
 
 struct PoseSearch {
-  // Distance in mm. A match agrees with a motion if its two points are closer than this after the
-  // motion.
+  // Distance in mm. A match agrees with a motion if the motion brings its two points closer than
+  // this, and their normals to within about 30 degrees.
   double reach = 0;
   int trials = 1'000'000;       // number of triples of matches to try
   std::size_t candidates = 32;  // largest number of motions to return

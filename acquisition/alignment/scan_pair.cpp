@@ -18,9 +18,11 @@ constexpr double kFeatureReach = 5;       // radius of features, in multiples of
 // Distance in mm. A surface closer than this to a measured point does not count as crossing the
 // point's sight line.
 constexpr double kMargin = 1.5;
-// limits for rough registration, in multiples of the spacing
+// Largest distances between paired points in the rounds of the rough registration, in multiples of
+// the spacing.
 constexpr std::array kFirstReaches = {3., 2., 1.};
-// limits for final registration, in multiples of `reach`
+// Largest distances between paired points in the rounds of the final registration, in multiples of
+// `reach`.
 constexpr std::array kLastReaches = {4., 2., 1., 1.};
 constexpr int kSteps = 5;
 constexpr double kSameDegrees = 3;

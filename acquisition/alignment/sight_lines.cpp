@@ -15,7 +15,7 @@ Vec3 towards(const Vec3& from, const Vec3& to) {
   return d * (1 / length(d));
 }
 
-// Converts a position in the axis's frame to a position in the object's frame.
+// Converts a position in the frame of the table's axis to a position in the object's frame.
 Vec3 place(const Profile& profile, const TablePoint& at) {
   return position(profile, {.at = at});
 }
@@ -24,7 +24,9 @@ void add_lines(std::vector<SightLine>& lines, const Profile& profile, const Prof
                const std::optional<TablePoint>& camera) {
   const Vec3 at = position(profile, point);
   TablePoint laser = point.at;
-  constexpr double kFar = 1e6;  // distance in mm
+  // Distance in mm between the laser and the axis if the camera's position is unknown. It is so
+  // large that the line to the laser is horizontal.
+  constexpr double kFar = 1e6;
   laser.rho = camera ? std::hypot(camera->rho, camera->lateral) : kFar;
   if (camera) laser.z = camera->z;
   lines.push_back({at, towards(at, place(profile, laser))});

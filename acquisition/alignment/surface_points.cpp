@@ -17,8 +17,7 @@ Cube cube_of(const Vec3& p, double side) {
   return {index(p.x), index(p.y), index(p.z)};
 }
 
-// Adds the mean of the vertices from `first` to `last` - 1 to `points`, unless the sum of their
-// normals is zero.
+// Adds the mean of `vertices` to `points`, unless the sum of their normals is zero.
 void add_mean(SurfacePoints& points, const TriangleMesh& mesh, const std::vector<Vec3>& normals,
               std::span<const std::pair<Cube, std::uint32_t>> vertices) {
   Vec3 at, normal;

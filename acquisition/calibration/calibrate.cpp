@@ -103,8 +103,8 @@ std::vector<Point> kept(std::span<const Point> points, const std::vector<bool>& 
   return rest;
 }
 
-// Fits the light plane and the plane map to the poses that are not left out. Predicts the points of
-// the left-out poses.
+// Fits the light plane and the plane map to the poses that are not left out. Returns the residuals
+// of the left-out poses.
 Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint> stripe,
                                                      const CameraModel& camera,
                                                      const SheetArea& area,
@@ -132,7 +132,7 @@ Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint>
 }
 
 // Fits a map to known coordinates in the laser plane, without the left-out poses. Returns the
-// residuals of the left-out poses. Their dw is 0, because no light plane is fitted.
+// residuals of the left-out poses. Their `dw` is 0, because no light plane is fitted.
 Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const Correspondence> points,
                                                      const SensorRegion& region,
                                                      const std::vector<bool>& left_out,
@@ -250,7 +250,8 @@ Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Tur
     const int next = static_cast<int>(numbers.size());
     p.pose = numbers.try_emplace(p.pose, next).first->second;
   }
-  // Each pose is judged by a map that is fitted to the other poses.
+  // Cross-validation judges each pose by a map that is fitted to the other poses, which must be at
+  // least two.
   constexpr std::size_t kLeastPoses = 3;
   if (numbers.size() < kLeastPoses) {
     return fail(ErrorCode::kBadInput,

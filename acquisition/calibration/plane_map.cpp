@@ -11,7 +11,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Largest accepted condition number. Above it, noise of 0.001 pixel would move the map by more than
+// Largest accepted condition number. Above it, noise of 0.001 pixel could move the map by more than
 // a pixel.
 constexpr double kWorstCondition = 1e4;
 // Tolerance in pixels. It is needed because the hull is computed in single precision.

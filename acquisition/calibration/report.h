@@ -21,13 +21,13 @@ struct HeldOutPoint {
 
 struct DegreeResult {
   int degree = 0;
-  double condition = 0;  // condition number of the normalised equations
+  double condition = 0;  // condition number of the fit (PlaneMap::condition())
   ResidualSummary residuals;
 };
 
 struct Coverage {
   double image_share = 0;  // share of the picture within the map's hull
-  // Bounds of the hull in the laser plane, in mm.
+  // Bounds, in the laser plane, of the points to which the map was fitted, in mm.
   double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
 
@@ -42,7 +42,7 @@ struct CalibrationReport {
   // Rms difference, in degrees, between the angles that the table reports and the angles computed
   // from the pictures.
   double table_error = 0;
-  ResidualSummary residuals;  // equal to Calibration::residuals
+  ResidualSummary residuals;  // over the points in `held_out`
   Coverage coverage;
   std::vector<DegreeResult> degrees;
   std::vector<HeldOutPoint> held_out;

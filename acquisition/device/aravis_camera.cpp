@@ -198,7 +198,7 @@ Expected<void> AravisCamera::set_exposure(double microseconds) {
   return {};
 }
 
-// Accepts a camera without gain control if no gain is requested.
+// Accepts a camera whose gain cannot be set if `decibels` is 0.
 Expected<void> AravisCamera::set_gain(double decibels) {
   AravisError fault;
   if (!arv_camera_is_gain_available(camera_.get(), nullptr)) {

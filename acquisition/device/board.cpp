@@ -61,7 +61,7 @@ Expected<OpenedController> open_controller(const BoardSelector& selector,
 Expected<std::unique_ptr<Board>> open_board(const BoardSelector& selector,
                                             const BoardOptions& options) try {
   return open_guarded(selector, options);
-  // For example, no thread can be started, or memory has run out.
+  // An exception means, for example, that no thread could be started or that memory has run out.
 } catch (const std::exception& error) {
   return fail(ErrorCode::kIo, fmt::format("{:04x}:{:04x} cannot be opened: {}; free memory and "
                                           "try again",

@@ -49,7 +49,7 @@ class Camera {
 
   // Sends one software trigger and returns one frame of region()'s size. The exposure of this frame
   // begins after the call. A frame that is incomplete, or does not arrive within the exposure plus
-  // 500 ms, is requested again, up to three times in all.
+  // one second, is requested again, up to three times in all.
   virtual Expected<Frame> capture() = 0;
 };
 

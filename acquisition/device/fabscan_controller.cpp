@@ -95,8 +95,8 @@ Expected<std::optional<double>> FabScanController::position() {
   return static_cast<double>(steps_) / steps_per_degree_;
 }
 
-// Stores the nearest motor step, because a motion to that angle would end at it. A resumed scan
-// therefore gives the same result as an uninterrupted one.
+// Stores the nearest motor step, because a motion to `degrees` would end at that step. A resumed
+// scan therefore gives the same result as an uninterrupted one.
 Expected<void> FabScanController::set_position(double degrees) {
   steps_ = step_at(degrees);
   is_known_ = true;

@@ -96,7 +96,7 @@ void SafeBoard::switch_off() {
 }
 
 // Counts the board as off if the command could be sent, because the firmware obeys this command
-// even if it does not confirm it.
+// even if it sends no confirmation.
 void SafeBoard::halt() noexcept {
   if (controller_->halt()) return power_->both_off();
   power_->unknown();

@@ -17,8 +17,8 @@ class SerialPort {
   virtual ~SerialPort() = default;
 
   // name() is the name in messages, such as "USB board 2341:0043". serial() is the device's serial
-  // number, and socket() is its USB port, such as "1-2.4". Each of these two is empty if the device
-  // does not have it.
+  // number, and socket() is its USB port, such as "1-2.4". serial() and socket() are empty if the
+  // device has none.
   virtual const std::string& name() const = 0;
   virtual const std::string& serial() const = 0;
   virtual const std::string& socket() const = 0;

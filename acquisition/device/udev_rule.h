@@ -7,7 +7,7 @@
 
 namespace vitrine::acquisition {
 
-// Returns whether the udev rules file has a line for boards with these numbers.
+// Returns whether the udev rules file has a line for boards with this vendor and product number.
 bool has_udev_rule(std::uint16_t vendor, std::uint16_t product);
 
 // Returns the line that the udev rules file would need for such boards.

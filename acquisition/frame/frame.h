@@ -24,7 +24,7 @@ struct Frame {
 
 // A position in a picture, to sub-pixel precision.
 struct ImagePoint {
-  double u = 0, v = 0;  // in pixels from the picture's top left corner
+  double u = 0, v = 0;  // in pixels from the centre of the top left pixel
 };
 
 // The part of the sensor that is read. A calibration is valid for one region of one camera.

@@ -16,7 +16,7 @@ constexpr std::size_t kNone = ~std::size_t{0};
 constexpr double kInsignificant = 6;
 
 struct Join {
-  double cost;         // mm²: deviation that noise alone does not explain
+  double cost;         // squared deviation that the merge adds beyond the noise, in mm²
   std::size_t length;  // number of points in both windows
   std::size_t left;    // index of the left window's first point
   // The windows' point counts when the merge was proposed. The merge is void if a count has changed

@@ -19,7 +19,7 @@ constexpr double kMostSaturated = .8, kMostDoubled = .5;
 constexpr double kMostFull = .05;
 constexpr int kFullLevel = 254;     // grey level at which a stripe counts as saturated
 constexpr double kLeastHeight = 1;  // least height of an object, in mm
-constexpr double kStrays = .02;     // share of the points ignored at the top, and at the bottom
+constexpr double kStrays = .02;     // share of the highest, and of the lowest, points ignored
 constexpr double kMostShift = 10;   // largest shift of a line between adjacent rows, in pixels
 
 // Returns whether two points in adjacent rows belong to a line. Noise often exceeds the threshold

@@ -86,8 +86,8 @@ std::vector<ProfilePoint> chain(std::span<const Profile> profiles) {
   return points;
 }
 
-// Returns the points that represent one profile: the mean of each window, and the ends of each
-// part.
+// Returns the points that represent one profile. A point flagged kApart begins a part. Each part is
+// represented by its two ends and the means of the windows between them.
 std::vector<ProfilePoint> corners_of(Points points, std::span<const Window> windows) {
   std::vector<ProfilePoint> kept;
   std::vector<PolylineVertex> part;

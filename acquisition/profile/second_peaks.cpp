@@ -8,7 +8,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr int kShortestLine = 5;  // shortest line that counts, in rows
+constexpr int kShortestLine = 5;  // shortest line that counts as a second surface, in rows
 constexpr int kMostSlant = 10;    // largest shift of a line between adjacent rows, in pixels
 // Largest strength in the dark gap between two surfaces, as a share of the weaker peak's strength.
 constexpr double kMostLit = .1;

@@ -26,7 +26,7 @@ struct RigFault {
   int step = 0;  // number of completed motions after which the fault occurs
 };
 
-inline constexpr double kCreepMm = 0.002;
+inline constexpr double kCreepMm = 0.002;  // in mm for each motion of the table
 
 // Parses "NAME" or "NAME@STEP", such as camera-unplug@20. Without a step, the fault is present from
 // the start or occurs after the first motion, depending on its kind. Fails with kBadInput; the

@@ -26,9 +26,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Seconds by which the answer "none yet" is delayed. libusb asks for finished transfers as long as
-// the device file is writable. The simulated file is a socket and therefore always writable, so
-// without the delay libusb would poll in a tight loop.
+// Seconds by which the answer "no transfer is finished yet" is delayed. libusb asks for finished
+// transfers as long as the device file is writable. The simulated file is a socket and therefore
+// always writable, so without the delay libusb would poll in a tight loop.
 constexpr double kHold = 0.0015;
 // Interval in seconds at which FTDI chips send their status even if they have no data.
 constexpr double kFtdiIdle = 0.016;
@@ -423,8 +423,8 @@ void UsbBoard::Impl::reap(UMockdevIoctlClient* handle, Client& client) {
   deliver(client);
 }
 
-// Delivers a finished transfer to a waiting client. If there is none and the client has waited long
-// enough, answers "none yet".
+// Delivers a finished transfer to a waiting client. If none is finished and the client has waited
+// for kHold, answers that no transfer is finished yet.
 void UsbBoard::Impl::deliver(Client& client) {
   if (!client.waiting) return;
   if (!client.finished.empty()) {

@@ -90,8 +90,8 @@ std::array<double, 2 * kTaps + 1> blur_weights() {
   return weights;
 }
 
-// Adds one run of pixels to a row and blurs it along the row. The outermost pixels of the run
-// receive light from the blur only.
+// Adds the light of one run of pixels, blurred along the row, to `row`. The outermost pixels of the
+// run receive light from the blur only.
 void add_run(const Stripe& stripe, const PixelRun& run, int v, std::vector<double>& fine,
              float* row) {
   static const auto kWeights = blur_weights();

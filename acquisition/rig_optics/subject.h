@@ -34,7 +34,8 @@ class Subject {
                           const std::function<void(ConvexPolygon)>& visit) const = 0;
 
   // ambient_step() is the distance in pixels between samples of the ambient light. ambient_light()
-  // is the strength of the ambient light.
+  // is the brightness of a white surface that faces the camera, in grey levels at exposure
+  // kExposureUs.
   virtual int ambient_step() const = 0;
   virtual double ambient_light() const = 0;
 };

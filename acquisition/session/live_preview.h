@@ -20,7 +20,7 @@ struct PreviewFrame {
 };
 
 inline constexpr int kPreviewWidth = 650;
-inline constexpr std::size_t kCloudPoints = 100'000;  // upper limit of the cloud's size
+inline constexpr std::size_t kCloudPoints = 100'000;  // largest number of points in the cloud
 
 class LivePreview {
  public:
@@ -31,7 +31,7 @@ class LivePreview {
   void show(Frame lit);
   void add(const Profile& profile);
 
-  PreviewFrame frame() const;      // returns the last frame; shrinks it here, to keep the scan fast
+  PreviewFrame frame() const;      // returns the last frame, shrunk in the caller's thread
   Profile profile() const;         // returns the last profile
   std::size_t cloud_size() const;  // returns the number of points so far
   // Returns the cloud's points from index `first` on, in mm in the object's frame. The cloud

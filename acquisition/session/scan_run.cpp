@@ -59,8 +59,8 @@ Expected<void> ScanRun::open_folder() {
   Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
     judged = stripe_watch_->add(stripes_[step], step + 1);
-  // This is an error only if an earlier process stored the last step and then crashed before it
-  // judged that step.
+  // `judged` now holds the judgement of the last step. It is an error only if an earlier process
+  // stored that step and crashed before judging it.
   if (!judged) return refuse(judged.error());
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());

@@ -76,8 +76,8 @@ class Loop {
   Vec3 middle_;
 };
 
-// Returns the boundary loops. Leaves out vertices at which several loops meet, because the edge
-// that follows such a vertex is ambiguous.
+// Returns the boundary loops. Leaves out each loop that passes through a vertex at which several
+// loops meet, because the edge that follows such a vertex is ambiguous.
 std::vector<Loop> loops_of(const TriangleMesh& mesh) {
   const std::vector<BoundaryEdge> edges = boundary_of(mesh);
   const auto leaving = [&](std::uint32_t v) {

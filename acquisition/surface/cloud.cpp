@@ -9,7 +9,7 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr double kDepths = 4;  // largest depth difference, in multiples of s_max ([WLL] eq. 5)
-// Share of the points that lie within the radius at which the distance between steps is measured.
+// The distance between steps is measured at the radius within which this share of the points lies.
 constexpr double kOutermost = .95;
 
 constexpr double kLeastHeight = 1e-3;  // in mm; the rows of a real camera are farther apart

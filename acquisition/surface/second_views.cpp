@@ -41,8 +41,8 @@ class Near {
   }
 
  private:
-  // Returns whether a point lies near `p`. Searches three cells that are adjacent in z. These cells
-  // are consecutive in memory.
+  // Returns whether a point lies within `reach_` of `p`, in one of three cells that are adjacent in
+  // z. These cells are consecutive in memory.
   bool has(const Vec3& p, const Cell& low) const {
     const Placed from{low, 0};
     const Cell high = {low[0], low[1], low[2] + 2};

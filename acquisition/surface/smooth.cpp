@@ -44,8 +44,8 @@ class Basis {
 
   Reach reach() const { return reach_; }
 
-  // Fits a quadratic to `values` and returns its value at the centre. Returns nullopt if the
-  // residual exceeds `rms`.
+  // Fits a quadratic to `values` and returns its value at the centre. Returns nullopt if the rms of
+  // the residuals exceeds `rms`.
   std::optional<double> middle(const std::vector<double>& values, double rms) const {
     std::array<double, kTerms> c{};
     double squares = 0, fitted = 0, at_middle = 0;

@@ -16,7 +16,7 @@ struct SurfaceOptions {
   // s_max of [WLL] eq. 5, in mm (Spacing::largest). 0 derives it from the profiles.
   double largest_spacing = 0;
   double largest_angle = 75;        // phi_max of [WLL] eq. 6, in degrees
-  double largest_hole = 2;          // size in mm; 0 leaves all holes open
+  double largest_hole = 2;          // largest hole or gap that is closed, in mm; 0: none
   std::size_t smallest_piece = 30;  // pieces with fewer points are dropped
   // Calibrated standard deviation of a point's rho, in mm. 0 disables smoothing.
   double noise = 0;

@@ -25,7 +25,7 @@ Expected<void> check_addresses(const Settings& settings);
 // Whether every user of the machine may read the folder.
 bool others_may_read(const std::filesystem::path& folder);
 
-// Returns the error with the name of the setting `admin-listen`.
+// Returns `error` with the name of the setting admin-listen before its message.
 Unexpected of_admin(const Error& error);
 
 }  // namespace vitrine::server

@@ -120,7 +120,8 @@ class Daemon {
                 .claims = claims_.get(),
                 .when_added =
                     [this](const ModelId& model) {
-                      // check_models() orders posters that cannot be made now
+                      // Ignores a failure, because check_models() queues the posters of new models,
+                      // too.
                       if (live_.get().roles.serves) (void)make_posters(model, services_);
                     }},
                std::move(scanners)),
@@ -255,8 +256,9 @@ class Daemon {
     }
   }
 
-  // Even without requests, closes the files of models that visitors no longer see, and makes
-  // missing posters. If opening copies the file, such as from S3, makes those of open models only.
+  // Runs at intervals, even without requests. Closes the files of models that visitors no longer
+  // see, and queues the posters of newly published models. If the store copies a file to open it,
+  // as for S3, queues the posters of open models only.
   void check_models() {
     static_cast<void>(models_.revision());
     for (const ModelId& model : new_files_.find())

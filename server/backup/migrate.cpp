@@ -37,9 +37,10 @@ bool read_on(std::uint64_t) {
   return true;
 }
 
-// Copies the files that are not in `done` yet, and adds them to `done`. Lists files in the report
-// of which neither side has an intact copy. Does not add files to `done` that only the destination
-// has intact: its garbage collection may remove them until both sides are locked.
+// Copies the files that are not in `done` yet, and adds them to `done`. If neither side has an
+// intact copy of a file, lists the file in the report. If only the destination has one, does not
+// add the file to `done`: until both sides are locked, the garbage collection of the destination
+// may remove that copy.
 Expected<void> copy_files(Installation& from, Installation& to, MigrationReport& report,
                           std::set<Sha256>& done, const MigrationProgress& progress) {
   const auto files = named_files(from, report);
@@ -67,8 +68,8 @@ Expected<void> copy_files(Installation& from, Installation& to, MigrationReport&
   return {};
 }
 
-// Checks that the destination has room for the files. If it has not, reads all of them, because
-// those that are damaged or missing are not copied and need no room.
+// Checks that the destination has room for the files. If it does not, reads all files of the
+// source, and checks again without the damaged and missing ones, because these are not copied.
 Expected<void> check_room(Installation& from, const Installation& to, const StorageLimits& limits) {
   const auto files = distinct_files(*from.catalogue);
   if (!files) return tl::unexpected(files.error());

@@ -9,7 +9,7 @@
 
 namespace vitrine::server {
 
-// Checks the characters itself, because OpenSSL ignores surrounding blanks and accepts padding in
+// Checks the characters without OpenSSL, which ignores surrounding blanks and accepts padding in
 // the middle of the text.
 std::optional<std::string> decode_base64(std::string_view text) {
   const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;

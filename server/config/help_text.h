@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texts of help and of errors in command lines: wraps lines, and suggests the word that was
-// meant.
+// Helps to write help texts and error messages: breaks lines, and finds the word that the user may
+// have meant.
 #pragma once
 
 #include <cstddef>

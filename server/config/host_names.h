@@ -16,8 +16,8 @@ namespace vitrine::server {
 // field.
 bool is_own_host(const Settings& settings, std::string_view host);
 
-// Whether the daemon answers requests for `host` on 'listen'. If neither public-url nor hosts is
-// set, it answers requests for every host, otherwise only for its own hosts.
+// Whether the daemon answers requests for `host` on the address `listen`. If neither public-url nor
+// hosts is set, it answers requests for every host, otherwise only for its own hosts.
 bool is_public_host(const Settings& settings, std::string_view host);
 
 // Whether `origin`, the value of an Origin field, is an entry of the setting allowed-origins.

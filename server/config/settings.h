@@ -67,7 +67,7 @@ struct Settings {
   std::uint64_t export_cache_bytes = 0;
   std::uint64_t model_cache_bytes = 0;
   std::uint64_t answer_memory_bytes = 0;
-  std::vector<std::string> hosts;            // such as "museum.example"; see host_names.h
+  std::vector<std::string> hosts;            // own host names, such as "museum.example"
   std::vector<std::string> allowed_origins;  // such as "https://museum.example"
   std::uint64_t max_upload_bytes = 0;
   std::uint32_t max_uploads = 0;  // largest number of uploads that a token may have open
@@ -77,9 +77,9 @@ struct Settings {
   std::uint64_t quota_bytes = 0;  // limit on the size of models and uploads together; 0: no limit
   std::uint64_t scrub_rate = 0;   // bytes per second of the background check; 0: no check
   std::uint64_t disk_reserve_bytes = 0;    // free space below which a disk counts as nearly full
-  std::vector<std::string> webhook_hosts;  // entries are "host" or "host:port"
+  std::vector<std::string> webhook_hosts;  // allowed for webhooks: "host" or "host:port"
   std::string webhook_key;  // bytes of the key that signs webhooks; empty: they are not signed
-  std::vector<std::string> purge_urls;          // URLs of caches, without a slash at the end
+  std::vector<std::string> purge_urls;          // URLs of caches to purge, without a final slash
   std::vector<std::filesystem::path> scanners;  // paths of rig.json files
   // URL at which other daemons reach this daemon, without a slash at its end. Empty if other
   // daemons cannot reach it.

@@ -10,8 +10,9 @@ namespace vitrine::server {
 void place(TriangleMesh& mesh, const PresentationTransform& placement);
 void place(CoarserLevel& level, const PresentationTransform& placement);
 
-// Returns the grid to which a compressed file of the placed mesh rounds positions. Its axes stay
-// those of the file, so an oblique placement moves vertices by up to half a step along each axis.
+// Returns the grid to which a compressed file of the placed mesh rounds positions. The grid is
+// moved and scaled, but not rotated. After an oblique rotation, rounding therefore moves vertices
+// by up to half a step along each axis.
 ExportGrid placed(const ExportGrid& grid, const PresentationTransform& placement);
 
 }  // namespace vitrine::server

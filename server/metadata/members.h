@@ -19,7 +19,7 @@
 
 namespace vitrine::server {
 
-inline constexpr double kMostLength = 1e12;  // largest coordinate of a point
+inline constexpr double kMostLength = 1e12;  // largest absolute value of a coordinate
 
 // Returns the N numbers of a JSON array. Returns nullopt if `json` is not an array of exactly N
 // numbers, each from -most to most.
@@ -40,7 +40,7 @@ inline std::optional<Vec3> json_point(const nlohmann::json& json) {
   return p ? std::optional(Vec3{(*p)[0], (*p)[1], (*p)[2]}) : std::nullopt;
 }
 
-// Reads the members of an object. A null restores the value of the default object.
+// Reads the members of a JSON object into values. A null resets a value to its default.
 class JsonMembers {
  public:
   JsonMembers(const nlohmann::json& object, std::string prefix, const WrongField& wrong)

@@ -12,7 +12,8 @@ namespace {
 
 using CheckMembers = void (*)(const JsonMembers& members);
 
-// A form of short texts. Each is compiled once, because std::regex compiles slowly.
+// The functions below return the patterns of short texts. Each pattern is compiled once, because
+// std::regex compiles slowly.
 const std::regex& id_form() {
   static const std::regex form("[a-z0-9]{1,32}");
   return form;

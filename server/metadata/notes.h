@@ -16,10 +16,10 @@ inline constexpr std::size_t kMostNotes = 100, kMostTours = 20, kMostSteps = 100
 inline constexpr std::size_t kMaxNoteTitle = 200, kMaxNoteText = 8'000, kMaxNoteUrl = 1'000;
 
 // Calls `wrong` for each fault of a list of notes. A note has an ID, a position and optionally a
-// normal in the coordinates of the model's file, and texts in one or more languages. It optionally
-// has the URL of a picture, and the view, light and section to show with the note. A section is an
-// axis of the presented model and a position from 0 to 200: the start and the end of the model's
-// box along that axis.
+// normal in the coordinates of the model's file, and texts in one or more languages, each
+// optionally with the URL of a sound. The note optionally has the URL of a picture, and the view,
+// light and section to show with the note. A section is an axis of the presented model and a
+// position from 0 to 200: the start and the end of the model's box along that axis.
 void check_notes(const nlohmann::json& notes, const WrongField& wrong);
 
 // Calls `wrong` for each fault of a list of tours. A tour has an ID, titles in one or more

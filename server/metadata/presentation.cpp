@@ -131,7 +131,7 @@ Bounds presented_box(const Presentation& presentation, const Bounds& file) {
 
 Vec3 direction_of(const PresentedView& view) {
   constexpr double kRadians = std::numbers::pi / 180;
-  constexpr double kSteepest = 89.9;  // directly above, there is no direction upwards
+  constexpr double kSteepest = 89.9;  // at 90 degrees, the view would have no upward direction
   const double up = std::clamp(view.elevation, -kSteepest, kSteepest) * kRadians;
   const double around = view.azimuth * kRadians;
   return {std::cos(up) * std::sin(around), std::sin(up), std::cos(up) * std::cos(around)};

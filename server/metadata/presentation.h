@@ -41,10 +41,11 @@ struct Presentation {
   std::array<double, 4> rotation = {0, 0, 0, 1};
   double scale = 1;  // factor from the coordinates of the file to the model's unit
   std::optional<PresentedView> view = {};
-  std::optional<PresentedView> poster = {};  // nullopt: posters have the view above
+  std::optional<PresentedView> poster = {};  // nullopt: posters show `view`
   std::optional<PresentedLight> light = {};
-  // The bounding box of the vertices after the rotation, before the scale. Given if the rotation is
-  // not one of quarter turns; the box of the file then does not determine it.
+  // The bounding box of the vertices after the rotation, before the scaling. Set unless the
+  // rotation consists of quarter turns, because the box of the file then does not determine this
+  // box.
   std::optional<Bounds> turned_box = {};
 
   bool is_default() const { return *this == Presentation{}; }
@@ -87,7 +88,8 @@ Vec3 direction_of(const PresentedView& view);
 using WrongField = std::function<void(const std::string& field, const std::string& expected)>;
 
 // Applies a JSON merge patch [RFC7396] to a presentation. Calls `wrong` for each wrong field, and
-// leaves its value. Sets `turned_box` only if `is_stored`, because clients cannot set it.
+// leaves the value of that field unchanged. Sets `turned_box` only if `is_stored`, because clients
+// cannot set it.
 void read_presentation(const nlohmann::json& patch, Presentation& presentation,
                        const WrongField& wrong, bool is_stored = false);
 

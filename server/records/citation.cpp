@@ -13,7 +13,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// Returns "A, B, and C". `pair`: the text between two names; `last`: before the last of several.
+// Returns the names as "A, B, and C". `pair` separates two names; `last` stands before the last of
+// three or more names.
 std::string all_names(const Names& names, std::string_view pair, std::string_view last) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -26,10 +26,11 @@ std::string to_text(const Dimensions& size);
 std::vector<std::string> values_in(std::string_view text);
 inline constexpr std::size_t kMostValues = 100;
 
-// Refers to `record`, which must outlive it.
+// An object of this class refers to `record`, which must outlive it.
 class DescribedModel {
  public:
-  // `origin`: the start of absolute URLs; see origin_of(). `size`: nullopt if it is unknown.
+  // `origin` is the start of absolute URLs, such as "https://museum.example"; may be empty. `size`
+  // is nullopt if it is unknown.
   DescribedModel(const ModelRecord& record, std::string origin,
                  std::optional<Dimensions> size = std::nullopt);
 
@@ -43,14 +44,16 @@ class DescribedModel {
   std::string title() const;
   // Returns the institution that publishes the model: `publisher`, or the host of this server.
   std::string provider() const;
-  // Returns the URL of the DOI's resolver, or an empty text if the model has no DOI.
+  // Returns the DOI as a URL, such as https://doi.org/10.5281/zenodo.1234, or an empty text if the
+  // model has no DOI.
   std::string doi_url() const;
-  // Returns the URI of the licence or the rights statement, as rights_url() does, or an empty text.
+  // Returns the URI of the licence or, if there is none, of the rights statement (rights_url()).
+  // Returns an empty text if neither has a URI.
   std::string rights_uri() const;
 
   std::string page_url() const;
-  // Returns the address that is expected to stay: the DOI's, or the persistent identifier if it is
-  // a web address, or that of the page.
+  // Returns the URL that is expected to stay valid: that of the DOI, else the persistent identifier
+  // if it is a web address, else that of the page.
   std::string permanent_url() const;
   std::string glb_url() const;
   std::string poster_url() const;

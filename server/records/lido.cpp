@@ -53,7 +53,7 @@ void add_classification(Xml description, const DescribedModel& model) {
   Xml types = description.append_child("lido:objectClassificationWrap")
                   .append_child("lido:objectWorkTypeWrap");
   const std::string& type = model.text("type");
-  // The element needs a term.
+  // LIDO requires a term in this element.
   add_concepts(types, "lido:objectWorkType", values_in(type).empty() ? "3D model" : type);
 }
 
@@ -153,7 +153,8 @@ void add_relations(Xml description, const DescribedModel& model) {
     add_display(works, "lido:relatedWorkSet", "lido:displayRelatedWork", model.text(name));
 }
 
-// Appends a licence or a rights statement as a concept. Its URI is its identifier if it has one.
+// Appends a licence or a rights statement as a concept. If the licence or statement has a URI, the
+// URI is the identifier of the concept.
 void add_rights_type(Xml rights, const std::string& text, std::string_view label) {
   if (text.empty()) return;
   Xml type = rights.append_child("lido:rightsType");

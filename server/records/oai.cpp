@@ -16,16 +16,18 @@ namespace {
 constexpr const char* kOaiNamespace = "http://www.openarchives.org/OAI/2.0/";
 constexpr const char* kOaiSchema = "http://www.openarchives.org/OAI/2.0/OAI-PMH.xsd";
 
-// The result of a verb: it is in the document, or the request has a fault.
+// The result of a verb: nullopt if the response was written into the document, or the fault of the
+// request. An error means that the catalogue cannot be read.
 using OaiResult = Expected<std::optional<OaiFault>>;
 
 OaiFault no_such_id() {
   return {"idDoesNotExist", "there is no published model with this identifier"};
 }
 
-// A change has the time of its last statement, and is visible a moment later, at its commit. A
-// harvester asks for changes since the responseDate of its last list. So the date lies a few
-// seconds before the rows were read: the harvester then gets some records twice, but misses none.
+// Number of seconds by which the responseDate lies before the time at which the rows were read. The
+// catalogue stamps a change with the time of its last SQL statement, but shows it only after its
+// commit, a moment later. A harvester asks for changes since the responseDate of its last list.
+// Thanks to the margin, it gets some records twice, but misses none.
 constexpr std::int64_t kSecondsToCommit = 5;
 
 std::string mail_of(const OaiSite& site) {
@@ -222,7 +224,8 @@ class OaiAnswer {
   std::int64_t date_;
 };
 
-// Appends the element `request`. It repeats the arguments, unless they are faulty.
+// Appends the element `request`, with the arguments if `has_arguments`. OAI-PMH omits them after
+// the faults badVerb and badArgument.
 void add_request(pugi::xml_node root, const Query& arguments, bool has_arguments,
                  const OaiSite& site) {
   pugi::xml_node node = add_element(root, "request", site.origin + "/api/v1/oai");

@@ -16,8 +16,8 @@ namespace vitrine::server {
 
 // The facts that a response states about the server.
 struct OaiSite {
-  std::string origin;   // see origin_of()
-  std::string contact;  // e-mail address; empty: the address of [RFC2142] at this host
+  std::string origin;   // start of absolute URLs, such as "https://museum.example"
+  std::string contact;  // e-mail address; empty: webmaster@ and the host ([RFC2142])
   // Seconds since 1970, UTC. Lists state the time of the catalogue's clock instead.
   std::int64_t now = 0;
 };

@@ -46,8 +46,8 @@ tl::unexpected<OaiFault> bad_argument(std::string message) {
   return tl::unexpected(OaiFault{"badArgument", std::move(message)});
 }
 
-// Checks that the verb takes all arguments and that none is missing. A resumption token must be the
-// only argument besides the verb.
+// Checks that the verb takes all given arguments, and that no required argument is missing. A
+// resumption token must be the only argument besides the verb.
 OaiStep check_names(const Query& arguments, const VerbRow& row) {
   if (const auto name = arguments.repeated())
     return bad_argument(fmt::format("the argument {} is given twice", *name));
@@ -68,7 +68,7 @@ OaiStep check_names(const Query& arguments, const VerbRow& row) {
 }
 
 struct Datestamp {
-  std::int64_t first = 0, last = 0;  // first and last second
+  std::int64_t first = 0, last = 0;  // first and last second, since 1970, UTC
   bool is_day = false;
 };
 
@@ -128,7 +128,8 @@ bool is_prefix(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, fits);
 }
 
-// Reads the format last: an unknown one is no fault of the arguments, which the response repeats.
+// Reads the format last: if only the format is unknown, the response repeats all arguments, so the
+// others must be valid.
 OaiStep read_selection(const Query& arguments, OaiRequest& request) {
   request.identifier = arguments.get("identifier");
   if (const auto set = arguments.get("set")) {

@@ -34,14 +34,14 @@ struct OaiRequest {
   const RecordFormat* format = nullptr;  // set if the verb needs a metadataPrefix
   std::optional<std::int64_t> from, until;
   std::string collection;             // empty if no set is given
-  std::optional<HarvestPlace> after;  // of a resumption token for a list of records
-  std::uint32_t cursor = 0, all = 0;  // of the same token; see ResumptionToken
-  std::string after_collection;       // of a resumption token for a list of sets
+  std::optional<HarvestPlace> after;  // last model of the previous page of a list of records
+  std::uint32_t cursor = 0, all = 0;  // numbers of records: on all previous pages, and in all
+  std::string after_collection;       // last collection on the previous page of a list of sets
 };
 
 tl::expected<OaiRequest, OaiFault> read_oai_request(const Query& arguments);
 
-// The resumption token for the sets after that of this collection.
+// Returns the resumption token with which ListSets continues after the set of `collection`.
 std::string token_after_set(std::string_view collection);
 
 // The names of all arguments.

@@ -37,7 +37,7 @@ std::optional<std::string> collection_of(std::string_view spec) {
     collection += static_cast<char>(value);
     i += 2;
   }
-  // Refuses all other ways to write the same collection, and malformed ones.
+  // Refuses each text that set_spec() does not return, so that a collection has only one setSpec.
   if (collection.empty() || set_spec(collection) != spec) return std::nullopt;
   return collection;
 }

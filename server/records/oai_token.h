@@ -16,17 +16,17 @@ namespace vitrine::server {
 // and tokens do not expire.
 struct ResumptionToken {
   const RecordFormat* format = nullptr;
-  std::optional<std::int64_t> from, until;  // as in HarvestQuery
+  std::optional<std::int64_t> from, until;  // times of changes, both inclusive
   std::string collection;                   // empty: all models
   HarvestPlace after;                       // the last model of the previous page
   std::uint32_t cursor = 0;                 // number of records on all previous pages
-  std::uint32_t all = 0;                    // number of records on all pages, at the first page
+  std::uint32_t all = 0;  // number of records on all pages, counted at the first page
 };
 
 std::string to_text(const ResumptionToken& token);
 
-// Returns nullopt if `text` is not a token. Anybody can write a token: it gives no access to more
-// than the same request without it.
+// Returns nullopt if `text` is not a token. Anybody can write a token, but it gives access to no
+// more than the same request without a token.
 std::optional<ResumptionToken> parse_resumption_token(std::string_view text);
 
 }  // namespace vitrine::server

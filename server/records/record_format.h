@@ -13,9 +13,9 @@ namespace vitrine::server {
 
 struct RecordFormat {
   const char* prefix;         // metadataPrefix of OAI-PMH
-  const char* file;           // last part of the record's path below that of its model
+  const char* file;           // last part of the record's path, /api/v1/models/{id}/FILE
   const char* label;          // name for people
-  const char* xml_namespace;  // of the record's root element, or of the format as a whole
+  const char* xml_namespace;  // namespace of the format, metadataNamespace of OAI-PMH
   const char* schema;         // URL of the XML schema
 };
 

@@ -18,14 +18,14 @@
 namespace vitrine::server {
 
 struct BuildOrder {
-  int bits = 0;  // see BuildOptions::bits
+  int bits = 0;  // bits per coordinate; 0: chosen from the median edge length
   Placement placement = Placement::kMidpoint;
   bool z_is_up = false;   // whether z is up in the mesh; in the model, y is always up
-  std::string unit = {};  // see ReadOptions::unit
-  std::string name = {};  // see ReadOptions::name
+  std::string unit = {};  // unit of the mesh; empty: the unit that its file states
+  std::string name = {};  // file name of the mesh, for error messages; may be empty
   // folder of the spill file (spill.h); empty if there must be no spill file
   std::filesystem::path folder;
-  std::uint64_t disk_reserve = 0;                    // see SpillOptions::disk_reserve
+  std::uint64_t disk_reserve = 0;  // bytes that the spill file leaves free on its disk
   std::filesystem::path program = "/proc/self/exe";  // executable that calls become_build_child()
 };
 

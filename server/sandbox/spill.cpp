@@ -28,15 +28,16 @@
 namespace vitrine::server {
 namespace {
 
-// Blocks of at least this many bytes may spill. Class Segments allocates blocks of this size.
+// Blocks of at least this many bytes may spill. Class Segments (codec/core/segments.h) allocates
+// blocks of this size.
 constexpr std::size_t kLarge = 8192;
 // The disk space of a freed range is released if the range has at least this many bytes.
 constexpr std::size_t kWorthHole = 1 << 20;
 constexpr std::size_t kLargestPage = 65'536;  // largest page size of any supported kernel
-// Blocks spill once large blocks in memory take 1 / kHeldShare of the memory limit.
+// Blocks spill once large blocks in memory take 1 / kHeldShare of SpillOptions::resident_bytes.
 constexpr std::uint64_t kHeldShare = 4;
-// trim() unmaps pages once the process uses this share of the memory limit. The remaining memory is
-// for pages that are loaded before the next check.
+// trim() unmaps pages once the process uses this share of SpillOptions::resident_bytes. The
+// remaining memory is for pages that are loaded before the next check.
 constexpr double kTrimShare = 0.625;
 constexpr std::uint64_t kFew = 8;
 constexpr auto kLook = std::chrono::milliseconds(1);

@@ -16,7 +16,8 @@ namespace vitrine::server {
 struct SpillOptions {
   // The folder of the spill file, on a disk with free space. If empty, blocks do not spill.
   std::filesystem::path folder = {};
-  // Limit of the process's resident memory. Only small blocks may exceed it.
+  // Limit of the process's resident memory, in bytes. The process exceeds it only if blocks that do
+  // not spill need more.
   std::uint64_t resident_bytes = 2ull << 30;
   // Largest size of the spill file. The default suffices for 300 million triangles, and any system
   // can map it.

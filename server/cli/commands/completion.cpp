@@ -58,7 +58,7 @@ complete -o default -F _vitrine vitrine)",
                      names, cases);
 }
 
-// zsh reads the completions of bash through its own module.
+// zsh reads completions written for bash through its module bashcompinit.
 std::string zsh_script() {
   return "#compdef vitrine\nautoload -U +X bashcompinit && bashcompinit\n" + bash_script();
 }

@@ -28,7 +28,7 @@ std::uint64_t bytes_used(const Refiner& refiner) {
 struct Export {
   std::string out;
   ExportKind kind;
-  std::optional<std::uint32_t> texture_side;  // in pixels; see pictures_to_export()
+  std::optional<std::uint32_t> texture_side;  // largest width of the pictures, in pixels
   ExportChoices choices;
   bool has_originals;  // whether to write the originals instead of the display atlas
 };

@@ -35,7 +35,7 @@ CommandOutcome show_lines(const Findings& findings) {
   std::string text;
   for (const Finding& finding : findings) {
     if (!text.empty()) text += '\n';
-    // Removes control characters, because the detail may come from the server under test.
+    // Escapes control characters, because the detail may come from the server under test.
     text += as_plain_text(fmt::format("{:<5} {:<12} {}{}{}", name_of(finding.verdict),
                                       finding.check, finding.detail,
                                       finding.advice.empty() ? "" : "; ", finding.advice));

@@ -31,7 +31,7 @@ using Clock = std::chrono::steady_clock;
 struct Order {
   FetchOptions options;
   std::optional<ExportKind> kind;  // kind of the output; nullopt for .pmesh
-  // Largest side of the pictures in the output; see pictures_to_export().
+  // Largest width of the pictures in the output, in pixels. nullopt: chosen by the detail.
   std::optional<std::uint32_t> texture_side = {};
   ExportChoices choices = {};
 };

@@ -105,7 +105,7 @@ struct Measure {
 struct MapTarget {
   std::string file;
   MeshFormat format;
-  std::optional<double> range;  // in B's unit; see distance_map()
+  std::optional<double> range;  // distance of the strongest colour, in B's unit
 };
 
 struct DistanceTask {

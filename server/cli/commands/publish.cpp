@@ -108,7 +108,7 @@ nlohmann::json order_of(const DescribedFile& described) {
   return order;
 }
 
-// A published model. `url` is empty if the model was published in a folder.
+// A published model. `url` is empty if the model was published with --data instead of --server.
 struct PublishedFile {
   std::string id, url;
 };
@@ -141,7 +141,8 @@ Expected<Publication> publish_within(const StorageLimits& limits, const Installa
                  {.quota = &quota, .repairs = joined_lines(file.repairs)});
 }
 
-// Builds a mesh, while the installation is not locked.
+// Returns the .pmesh file to publish. Called before the installation is opened, so that a long
+// build does not lock the installation.
 tl::expected<BuiltFile, Fault> built_for(const InstallationPlace& place,
                                          const StorageLimits& limits,
                                          const DescribedFile& described) {

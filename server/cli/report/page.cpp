@@ -10,7 +10,7 @@
 namespace vitrine::server {
 namespace {
 
-// Returns the share of `whole` in percent, or 0 if `whole` is 0.
+// Returns `part` as a percentage of `whole`, or 0 if `whole` is 0.
 double percent(double part, double whole) {
   return whole > 0 ? 100 * part / whole : 0;
 }

@@ -16,11 +16,12 @@ class AuditTrail {
  public:
   static constexpr const char* kFile = "audit.log";  // name of the file in the data folder
 
-  // Opens the file in an existing data folder. If it is missing, creates it for the folder's owner.
-  // If this fails with kIo, the caller must not change the installation.
+  // Opens the file in an existing data folder. If the file is missing, creates it for the folder's
+  // owner. If this fails with kIo, the caller must not change the installation.
   static Expected<AuditTrail> open(const std::filesystem::path& folder);
 
-  // Appends a line; see CommandRecord.
+  // Appends a line about a command: `action` is the command, such as "token create", `target` is
+  // what it changes, and `is_done` is whether the change was made.
   void record(std::string_view action, std::string_view target, bool is_done) const;
 
  private:

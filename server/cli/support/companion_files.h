@@ -29,9 +29,9 @@ class CompanionFiles {
  public:
   // Searches the folder `path.folder` and its subfolders, except hidden files and folders. For a
   // glTF model, opens the files whose names occur as URIs in its JSON. For an FBX file, opens the
-  // pictures that its records name. For other meshes, opens the .mtl files whose names occur in the
-  // first megabyte of `mesh`, and the pictures whose names occur there, in the first 16 megabytes
-  // of a DAE file, or in those .mtl files. If several files have the same name, opens all of them,
+  // pictures that its records name. For other meshes, opens the .mtl files and the pictures whose
+  // names occur in the first megabyte of `mesh` (in the first 16 of a DAE file), and the pictures
+  // whose names occur in these .mtl files. If several files have the same name, opens all of them,
   // because only the reader knows which file is meant. Opens no files for a package, which contains
   // its own files.
   CompanionFiles(const ModelPath& path, std::span<const std::uint8_t> mesh,

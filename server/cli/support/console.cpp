@@ -42,7 +42,7 @@ CommandOutcome print_bytes(std::span<const std::uint8_t> bytes) {
 }
 
 void print_fault(std::string_view message) {
-  // Removes line breaks and invalid UTF-8, which names of files may contain.
+  // Escapes line breaks and invalid UTF-8, which names of files may contain.
   const std::string line = fmt::format("vitrine: {}\n", as_plain_text(message));
   std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw if the disk is full
 }
@@ -75,7 +75,7 @@ ProgressReport ProgressBar::report() {
 void ProgressBar::show(std::string_view stage, double fraction) {
   if (!is_terminal_) return;
   const std::lock_guard lock(mutex_);
-  // removes control characters, because the text may come from a server
+  // escapes control characters, because the text may come from a server
   stage_ = as_plain_text(stage);
   share_ = fraction >= 0 && fraction <= 1 ? fraction : 0;
   shown_ = Clock::now();

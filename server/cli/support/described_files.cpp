@@ -56,7 +56,8 @@ class DescriptionSheet {
   DescriptionSheet(std::string name, std::vector<SheetRow> rows)
       : name_(std::move(name)), rows_(std::move(rows)) {}
 
-  // Appends the file `in`, or the files of all rows in the folder `in`.
+  // Appends the file `in` to `files`. If `in` is a folder that no row names, appends the files of
+  // all rows, which are in that folder.
   CommandOutcome add(const Arguments& arguments, const std::string& in,
                      std::vector<DescribedFile>& files) {
     if (const SheetRow* row = row_of(in)) return add_row(arguments, *row, in, files);
@@ -83,7 +84,8 @@ class DescriptionSheet {
   }
 
  private:
-  // Returns the row of a file: the row names it, or the end of its path.
+  // Returns the row of the file `in`, or null if there is none. The row names the whole path or the
+  // end of the path.
   const SheetRow* row_of(const std::string& in) const {
     const std::string path = (fs::path("/") / fs::path(in).lexically_normal()).string();
     const auto names = [&](const SheetRow& row) {
@@ -103,7 +105,7 @@ class DescriptionSheet {
     return {};
   }
 
-  // Replaces what the flags gave by the texts of the row.
+  // Replaces the texts and options that the flags gave by those of the row.
   CommandOutcome describe(const SheetRow& row, DescribedFile& file) const {
     for (const auto& [column, text] : row.texts) {
       if (column == kUnit) {

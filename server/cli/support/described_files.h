@@ -27,10 +27,11 @@ struct DescribedFile {
   bool states_reading = false;  // whether a flag or the sheet gives the unit or the upward axis
 };
 
-// Returns the operands IN, or the files of the sheet in a folder IN, with their texts: from the row
-// of the sheet if there is a sheet, otherwise from the flags. The title is otherwise the file's
-// name. Checks all texts. Prints a note that names the rows without a file. Fails if a file has no
-// row.
+// Returns the files that the operands IN name, with their texts. If IN is a folder that no row of
+// the sheet names, returns the files of all rows, which are in that folder. The texts come from the
+// file's row of the sheet, and otherwise from the flags. The default title is the file's name.
+// Checks all texts. Prints a note about the rows that no file uses. Fails if there is a sheet
+// without a row for a file.
 tl::expected<std::vector<DescribedFile>, Fault> described_files(const Arguments& arguments);
 
 }  // namespace vitrine::server::cli

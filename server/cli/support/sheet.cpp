@@ -76,7 +76,7 @@ class CsvReader {
     const char ends[] = {separator_, '\r', '\n'};
     return std::string(trimmed(take(rest_.find_first_of(std::string_view(ends, std::size(ends))))));
   }
-  // Two quotation marks in a quoted cell stand for one. Text behind the closing quotation mark,
+  // Two quotation marks in a quoted cell stand for one. Text after the closing quotation mark,
   // which some programs write, belongs to the cell.
   std::optional<std::string> quoted() {
     std::string cell;
@@ -97,7 +97,7 @@ class CsvReader {
   std::size_t line_ = 1;
 };
 
-// Checks the rows of one sheet and gives the cells their columns.
+// Checks the rows of one sheet and assigns each cell to its column.
 class SheetReader {
  public:
   SheetReader(std::string_view name, std::span<const std::string_view> columns)

@@ -21,8 +21,8 @@ enum class SurfaceParts : std::uint8_t { kShape, kLooks };
 struct SurfaceInput {
   TriangleMesh mesh;
   std::string unit;  // empty if unknown
-  // Empty for a .pmesh file, or if only kShape was requested. Readers also apply the factors and
-  // maps of the texturing to the vertex colours.
+  // Empty for a .drc file, or if only kShape was requested. If the surface comes from another mesh
+  // file, the factors and maps of the texturing are also multiplied into the vertex colours.
   Texturing texturing;
   // One line for each kind of material or picture in the file that `texturing` lacks.
   std::vector<std::string> not_carried;
