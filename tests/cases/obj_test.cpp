@@ -301,7 +301,7 @@ std::vector<Case> missing_libraries() {
            .beside = {{"a.mtl", red}}}};
 }
 
-// Returns a case whose library consists of the text `library`.
+// Returns a case whose material library, m.mtl, consists of the text `library`.
 Case library_case(const std::string& library, const std::vector<Colour>& colours,
                   const std::string& said) {
   return {.situation = library,

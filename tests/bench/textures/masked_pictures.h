@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a source as WebP files, in the form in which competing formats use them.
+// The pictures of a source model as WebP files, as the compared file formats store them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace vitrine::bench {
 
 // Quality with which the pictures are written as WebP files.
 inline constexpr int kPictureQuality = 80;
-// least side, in pixels, of a picture for the competing formats
+// Smallest side, in pixels, of a picture for the compared file formats.
 inline constexpr std::uint32_t kLeastSide = 256;
 
 struct SizedPicture {
