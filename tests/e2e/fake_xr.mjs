@@ -66,7 +66,10 @@ export function fakeXr(side = 400) {
     }
   }
 
-  /** Returns the smallest rectangle around what the next picture shows, from the lower left, and the mean brightness in it. */
+  /**
+   * Waits for the next picture. Returns the number of its drawn pixels, the smallest rectangle around them, in pixels from the lower
+   * left corner, and their mean brightness, from 0 to 255.
+   */
   phone.seen = async () => {
     await new Promise((resolve) => phone.session.drawn.push(resolve));
     const { gl } = phone, data = new Uint8Array(4 * side * side), box = { left: side, right: -1, bottom: side, top: -1, light: 0 };

@@ -27,7 +27,7 @@ std::vector<SizedPicture> masked_pictures(const TexturedModel& model, std::uint3
 // Returns picture number `picture` of a model, unchanged.
 std::vector<std::uint8_t> unmasked_picture(const TexturedModel& model, std::uint32_t picture);
 
-// Returns the numbers of the pictures that some material uses as one of these maps.
+// Returns the numbers of the pictures that some material uses as one of `maps`.
 std::vector<std::uint32_t> used_pictures(const Texturing& texturing,
                                          std::span<const MapOfMaterial> maps);
 

@@ -216,8 +216,8 @@ TEST_F(AttackTest, GuessingTokensIsSlowedDownWhileTheirOwnersGetOn) {
   EXPECT_EQ(client.get("/api/v1/jobs", own).status, 200);
 }
 
-// These requests cost the attacker little, and the daemon answers them from memory. Their log lines
-// must stay short.
+// Requests for unknown paths cost the attacker little, and the daemon answers them from memory.
+// Their log lines must stay short.
 TEST_F(AttackTest, PipelinedUnknownPathsFillNoLog) {
   constexpr int kRequests = 2'000;
   constexpr std::size_t kTarget = 4'000;
