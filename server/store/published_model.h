@@ -243,8 +243,8 @@ class PublishedModels {
   Expected<ModelPointer> open_file(ModelRecord record, std::uint64_t revision);
   Expected<void> reserve_copy(const ModelRecord& record);
   void learn_geometry(const PublishedModel& model);
-  void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds the lock
-  // Whether the file was damaged at this revision. The caller holds the lock.
+  void set_damaged(const Sha256& file, std::uint64_t revision);  // the caller holds mutex_
+  // Whether the file was found damaged at this revision of the catalogue. The caller holds mutex_.
   bool is_known_damaged(const Sha256& file, std::uint64_t revision) const;
   std::uint64_t count_of_damages(const Sha256& file) const;  // the caller holds mutex_
   void withdraw(const Sha256& file);                         // the caller holds mutex_

@@ -377,7 +377,8 @@ std::vector<Case> diffuse_factors() {
           diffuse("red", {1, 0, 0, 1}, kRed, false)};
 }
 
-// Returns a case with a green texture. Its triangle has coordinates for another set, or none.
+// Returns a case with a green texture that uses set 0 of texture coordinates. Its triangle has only
+// set 1 if `has_other_set`, and otherwise no texture coordinates.
 Case without_coordinates(const std::string& situation, bool has_other_set, bool has_colours) {
   GlbBuilder model = textured(vitrine::testing::png_of({0, 255, 0}, 1));
   auto& attributes = model.document["meshes"][0]["primitives"][0]["attributes"];

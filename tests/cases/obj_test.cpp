@@ -127,7 +127,7 @@ std::string dressed(const std::string& libraries, const std::string& material = 
 const std::vector<Colour> kAllRed(4, kRed), kAllBlue(4, kBlue);
 
 // Expects that a material with the given statement, which refers to the picture "t a.png", gives
-// the vertices `colours`.
+// the vertices the colours `colours`.
 void expect_statement(const std::string& statement, const std::vector<Colour>& colours) {
   expect_case(
       {.situation = statement,
@@ -301,7 +301,7 @@ std::vector<Case> missing_libraries() {
            .beside = {{"a.mtl", red}}}};
 }
 
-// Returns a case whose library consists of the text `library`.
+// Returns a case whose material library, m.mtl, consists of the text `library`.
 Case library_case(const std::string& library, const std::vector<Colour>& colours,
                   const std::string& said) {
   return {.situation = library,

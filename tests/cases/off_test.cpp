@@ -12,8 +12,8 @@ using vitrine::testing::kFourCases;
 using vitrine::testing::kRedCase;
 using vitrine::testing::refusal;
 
-// Returns a tetrahedron as OFF: the start of the file, then the vertices and the faces. The given
-// numbers follow each vertex and each face.
+// Returns a tetrahedron as OFF: the start of the file, then the vertices and the faces. vertices[i]
+// follows the coordinates of vertex i, and faces[i] follows the corners of face i.
 std::string off(const std::string& start, const std::array<std::string, 4>& vertices = {},
                 const std::array<std::string, 4>& faces = {}) {
   std::string out = start + "\n";

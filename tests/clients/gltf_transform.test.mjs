@@ -20,7 +20,7 @@ before(async () => {
 });
 after(() => museum?.stop());
 
-/** Returns the triangles and the size of a document, and the attributes of its only mesh. */
+/** Returns the number of triangles and the size of a document, and the attributes of its only mesh. */
 function described(document) {
   const { meshes, textures } = inspect(document), [scene] = document.getRoot().listScenes(), { min, max } = getBounds(scene);
   assert.equal(meshes.properties.length, 1);

@@ -40,7 +40,7 @@ export class Museum {
     return this.daemon.url;
   }
 
-  /** Publishes a file as the model `name`. `described` has its triangles, and its size in metres with y up. */
+  /** Publishes a file as the model `name`. `described` has its number of triangles, and its size in metres with y up. */
   async add(name, described, file, ...words) {
     const page = await this.daemon.publish(file, name, ...words);
     this.models[name] = { ...described, id: page.split("/").pop() };

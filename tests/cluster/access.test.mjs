@@ -23,8 +23,8 @@ import { Replica } from "./replica.mjs";
 import { Secrets } from "./secrets.mjs";
 
 const bin = process.env.VITRINE_BIN;
-// Formats whose bytes are compared with secrets. Other formats store numbers as text, and the public manifest may contain the
-// same text. They are requested in the first state only.
+// Formats whose bytes are compared with secrets. The other formats are requested in the first state only: they store numbers as
+// text, and the public manifest may contain the same text.
 const kBinary = ["glb", "ply", "stl", "drc"];
 const kFormats = [...kBinary, "obj", "wrl", "3mf", "usdz", "obj.zip"];
 const kRoles = ["none", "viewer", "operator", "admin"];
@@ -33,7 +33,7 @@ const kForm = { "Content-Type": "application/x-www-form-urlencoded" };
 const kCollection = "Hidden cabinet"; // the collection of all models
 const kSide = 30; // vertices per side of the mesh
 const kSteps = 8; // number of turntable steps per scan
-const kLongSteps = 2000; // the same for a scan that is cancelled
+const kLongSteps = 2000; // number of turntable steps of a scan that is cancelled
 const kPoses = 12; // number of target poses of the calibration
 const postgres = new Postgres(), gateway = new Gateway();
 const matrix = new Map();
@@ -150,9 +150,9 @@ async function cancelScan({ job }) {
 const manifestOf = (one, model, role) => ask(one, "GET", `/api/v1/models/${model}/manifest`, role);
 
 /**
- * Returns bytes that reveal a model at `level`, or at its finest level: its exports and, at the
- * finest level, also its chunks and its poster. Leaves out the poster if another public poster
- * shares bytes with it.
+ * Returns bytes that reveal a model at `level`, or at its finest level if `level` is undefined: its
+ * exports and, at the finest level, also its chunks. Adds the poster if `hasPoster`. A model with
+ * capped levels has a public poster, which may share bytes with that of the finest level.
  */
 async function pictured(model, level, hasPoster = false) {
   const query = level === undefined ? "" : `?level=${level}`, paths = kBinary.map((format) => `/export.${format}${query}`);
@@ -266,7 +266,7 @@ async function streamed({ port }, model) {
 
 const change = (path, value) => ({ model }) => json(replicas[0], value ? "PATCH" : "POST", `/models/${model}${path}`, "operator", value);
 const cap = change("", { public_max_level: 0 });
-/** Makes another model of the scan, which is not public, and adds its ID to `made.others`. */
+/** Makes another model, which is not public, from the scan. Stores its ID in `made.others`. */
 const reprocess = async (made) => {
   const { job } = await json(replicas[0], "POST", `/scans/${made.scan}/reprocess`, "operator", { bits: 14 });
   made.others = [await ended(job)];

@@ -19,7 +19,7 @@ import { relief } from "./meshes.mjs";
 import { Replica } from "./replica.mjs";
 
 const bin = process.env.VITRINE_BIN, run = promisify(execFile);
-const kSkew = 600; // seconds
+const kSkew = 600; // seconds by which one daemon's clock is fast or slow
 const kSide = 150; // vertices per side of the meshes
 const kMostPairs = 10; // after at most this many pairs of jobs, each daemon must have claimed a job
 const kHistory = `

@@ -128,8 +128,8 @@ async function buildersDieAndSleep() {
 }
 
 /**
- * Faults during a scan. A killed daemon continues the scan at the same step after its restart. A suspended daemon loses
- * the scanner to another daemon, which restarts the scan.
+ * Kills and suspends daemons during scans. A killed daemon must continue its scan at the same step after its restart. A
+ * suspended daemon loses the scanner to another daemon, which restarts the scan.
  */
 async function driversDieAndSleep() {
   await technician.turned(1);

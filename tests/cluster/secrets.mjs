@@ -12,7 +12,7 @@ const kWindow = 32;
  */
 export class Secrets {
   #windows = new Set();
-  #harmless = new Set(); // SHA-256 of contents without secrets: daemons often send the same content
+  #harmless = new Set(); // SHA-256 of contents found to be without secrets, because daemons often send the same content
 
   hide(content) {
     this.#harmless.clear();

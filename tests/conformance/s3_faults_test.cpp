@@ -103,7 +103,7 @@ TEST_F(S3Faults, PuttingAnExistingObjectAgainMakesNoLocalCopy) {
   const auto bytes = many_bytes(1'000);
   const auto store = open();
   ASSERT_TRUE(store->put(sha256(bytes), bytes).value());
-  std::filesystem::remove_all(folder_.path());  // no copy can be made
+  std::filesystem::remove_all(folder_.path());  // prevents a local copy of the object
   EXPECT_FALSE(store->open(sha256(bytes)));
   const auto again = store->put(sha256(bytes), bytes);
   ASSERT_TRUE(again);

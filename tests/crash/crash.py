@@ -45,7 +45,7 @@ def torus(rings, sides):
 
 
 class Known:
-    """The operator's knowledge from the responses of all daemons so far."""
+    """Records what the responses of all daemons so far have told the operator."""
 
     def __init__(self):
         self.uploads = {}  # path -> [content of the file, number of acknowledged bytes]

@@ -30,13 +30,13 @@ from fuzz import OPTIONS, STATUS, Requests, frame, messages, mutated_request, ta
 from mutations import mutated
 
 LIFE = (20, 300)  # shortest and longest time in seconds for which most daemons run
-LONG_LIFE = (1800, 3600)  # the same for every tenth daemon, in a run of RUN hours or more; in a shorter run, the same share of the run
-RUN = 10
+LONG_LIFE = (1800, 3600)  # shortest and longest time in seconds for which every tenth daemon runs
+RUN = 10  # default duration in hours; LONG_LIFE is scaled down in a shorter run
 BRIEF = (4, 16, 4)  # number of faults of each daemon in a brief run; check_growth() checks only the second daemon
 SAMPLES = 16  # number of times at which a daemon with a long life is idle and its memory and descriptors are counted
 BACKLOG = 10  # number of jobs that the operator has open at once
 GROWTH = 4 << 20  # bytes by which the memory of a daemon may grow from the third to the fourth quarter of a long life
-COLD_GROWTH = 64 << 20  # the same in a short run, in which caches still grow
+COLD_GROWTH = 64 << 20  # replaces GROWTH in a run of less than RUN hours, in which caches still grow
 MORE_DESCRIPTORS = 4  # number of descriptors by which a daemon may use more in the fourth quarter than in the third
 PAUSE = 0.5  # time in seconds between two faults
 MEMORY = 300 << 20  # largest resident memory of the idle daemon, in bytes

@@ -32,7 +32,8 @@ class Unit(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_processes_that_read_uploads_may_not_leave_the_network_but_restrict_themselves(self):
-        # They then only have their seccomp filter; tests/server/sandbox tests that they work and have no network.
+        # Without namespaces of their own, only a seccomp filter confines these processes. tests/server/sandbox tests that they
+        # then work and have no network.
         self.assertEqual(service()["RestrictNamespaces"], "yes")
         self.assertIn("seccomp", UNIT.read_text(encoding="utf-8").split("SystemCallFilter=")[1].splitlines()[0])
 

@@ -3,12 +3,12 @@
 
 /**
  * Runs in the page: `navigator.xr` offers sessions whose pictures are `side` pixels wide and high, with a field of view of 90 degrees.
- * `window.phone` is the phone: `eye` and `floor` are positions in metres, `normal` is the direction of the surface that the middle of
- * the view meets. There is no surface while `floor` is undefined.
+ * `window.phone` is the phone. `eye` is the position of its camera, in metres. `floor` is the point, in metres, at which the middle of
+ * the view meets a surface, or undefined if there is none. `isWall` states whether this surface is upright.
  */
 export function fakeXr(side = 400) {
   const at = (x, y, z) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1];
-  /** A surface whose y axis is its normal: lying, or standing like a wall. */
+  /** Returns the pose of a surface as a 4 x 4 matrix. The y axis is the normal of the surface, which is level or upright. */
   const surface = ([x, y, z], isWall) => (isWall ? [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, x, y, z, 1] : at(x, y, z));
   const phone = (window.phone = { eye: [0, 0, 0], floor: undefined, isWall: false, session: undefined, asked: [] });
   const projection = ([near, far] = [0.01, 50]) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, (2 * far * near) / (near - far), 0];
@@ -66,7 +66,10 @@ export function fakeXr(side = 400) {
     }
   }
 
-  /** Returns the smallest rectangle around what the next picture shows, from the lower left, and the mean brightness in it. */
+  /**
+   * Waits for the next picture. Returns the number of its drawn pixels, the smallest rectangle around them, in pixels from the lower
+   * left corner, and their mean brightness, from 0 to 255.
+   */
   phone.seen = async () => {
     await new Promise((resolve) => phone.session.drawn.push(resolve));
     const { gl } = phone, data = new Uint8Array(4 * side * side), box = { left: side, right: -1, bottom: side, top: -1, light: 0 };

@@ -38,7 +38,7 @@ async function put(part, list) {
   assert.equal(answer.status, 200, await answer.text());
 }
 
-/** Notes in front, at the left and at the right of the model. */
+/** Returns three notes: in front, at the left and at the right of the model. */
 function fixedNotes() {
   const note = (name, title, x, z, more = {}) =>
     ({ id: name, position: [x, 0.8, z], normal: [x, 0, z], texts: { en: { title } }, view: { direction: [x, 0, z], zoom: 1 }, light: "museum", section: "", ...more });
@@ -113,7 +113,7 @@ test("a curator places notes on the surface, writes them, and orders them into a
     await page.mouse.click(x + width / 2, y + height / 2);
   };
 
-  // By the mouse. The first note has texts in two languages, a picture and raking light.
+  // Places the first note with the mouse. It has texts in two languages, a picture and raking light.
   await viewer.locator("button[name=light]").click();
   await viewer.locator("label:has([value=raking])").click();
   await desk.press("Place a note");
@@ -131,7 +131,7 @@ test("a curator places notes on the surface, writes them, and orders them into a
   assert.equal(await field("title").inputValue(), "Face", "each language has its own texts");
   await viewer.getByRole("button", { name: "Note 1: Face" }).waitFor();
 
-  // From other sides, one of them by keyboard alone.
+  // Places two more notes from the left and from the right side, the last one with the keyboard only.
   await viewer.locator("label:has([value=museum])").click();
   for (const [key, presses, title] of [["ArrowRight", 8, "Left side"], ["ArrowLeft", 16, "Right side"]]) {
     for (let i = 0; i < presses; ++i) await canvas.press(key);
@@ -153,7 +153,7 @@ test("a curator places notes on the surface, writes them, and orders them into a
   await page.getByLabel("Seconds of stop 1").fill("30");
   await page.getByLabel("Transition to stop 2").selectOption("cut");
 
-  // An error stands at its field, and nothing is lost.
+  // Saves a note with an invalid picture URL. The form must show an error at this field, and keep all other input.
   await page.locator(".note-list .name", { hasText: "Face" }).click();
   await field("picture").fill("poster.png");
   await desk.press("Save notes and tours");
@@ -181,7 +181,7 @@ test("a curator places notes on the surface, writes them, and orders them into a
   assert.equal(tour.titles.en, "Around the bust");
   assert.deepEqual(tour.steps, [{ note: notes[0].id, seconds: 30 }, { note: notes[2].id, transition: "cut" }, { note: notes[1].id }]);
 
-  // Files: what was saved comes back, and annotations of IIIF are added.
+  // Saves the notes to a file. Reading IIIF annotations adds notes; reading the saved file restores the saved notes.
   const [download] = await Promise.all([page.waitForEvent("download"), desk.press("Save as a file")]);
   const file = await readFile(await download.path());
   assert.deepEqual(JSON.parse(file).notes, await read("notes"));
@@ -221,7 +221,7 @@ test("an operator sees that somebody else has changed the notes, and chooses whi
   await desk.press("Discard changes");
   await page.locator(".note-list li:nth-child(2):last-child").waitFor();
 
-  // While the editor is open, saving is refused once.
+  // The notes on the server change while the editor is open, so the first attempt to save is refused.
   await page.locator(".note-list .name", { hasText: "Face" }).click();
   await title.fill("The face");
   await put("notes", notes.slice(0, 1));
@@ -269,7 +269,7 @@ test("the editor opens once, keeps the focus in its tour, and ends placing when 
   const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk, summary = page.getByText("Notes and tours…");
   await desk.go(`models/${id}`, "Bust");
   await page.waitForFunction(() => document.querySelector("progressive-mesh")?.presenter);
-  await summary.evaluate((element) => [1, 2, 3].forEach(() => element.click())); // the file of the editor is still being loaded
+  await summary.evaluate((element) => [1, 2, 3].forEach(() => element.click())); // clicks three times before the editor's script is loaded
   await page.getByRole("button", { name: "Place a note" }).waitFor();
   assert.equal(await page.locator(".notes-editor").count(), 1);
 
@@ -285,7 +285,7 @@ test("the editor opens once, keeps the focus in its tour, and ends placing when 
   await saved(page);
   assert.deepEqual((await read("tours"))[1], { id: "second", titles: { en: "Second" }, steps: [{ note: "left" }, { note: "face", seconds: 30 }] });
 
-  // A fault is shown at its note and in its language.
+  // Saves an invalid sound file in the German texts of the first note. The editor must then show this note in German.
   const name = page.locator(".note-list .name"), field = (part) => page.locator(`.note-form [name=${part}]`);
   await name.nth(0).click();
   await field("language").selectOption("de");
@@ -316,7 +316,7 @@ test("a visitor plays the tour by keyboard, and screen readers read each stop", 
   await page.keyboard.press("Enter");
   assert.equal(await focusedName(viewer), "Play", "with reduced motion, the tour waits for the visitor");
   assert.equal(await panel.getAttribute("aria-label"), "Around the bust");
-  await panel.locator(".title").waitFor(); // the live region is filled after it is in the page
+  await panel.locator(".title").waitFor(); // the ARIA live region gets its text only after it is in the page
   assert.match(await stepText(viewer).textContent(), /^FaceOf marble\.See the catalogue\.$/);
   assert.equal(await stepText(viewer).getAttribute("aria-live"), "polite");
   assert.equal(await panel.locator(".place").textContent(), "1 of 3");
@@ -358,7 +358,7 @@ test("a tour plays by itself to its end, and again from the start", { timeout: 1
   await page.getByRole("button", { name: "Play the tour" }).click();
   const shown = await viewer.events("tour-step", 3);
   assert.deepEqual(shown.map(({ detail }) => detail), [1, 2, 3].map((step) => ({ step, steps: 3 })));
-  await panel.getByRole("button", { name: "Play" }).waitFor(); // the end
+  await panel.getByRole("button", { name: "Play" }).waitFor(); // this button appears when the tour has ended
   assert.equal((await viewer.events("tour-step")).length, 3);
   await page.keyboard.press("Space");
   assert.deepEqual((await viewer.events("tour-step", 4))[3].detail, { step: 1, steps: 3 });

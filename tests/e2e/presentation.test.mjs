@@ -50,7 +50,7 @@ async function open(attributes = {}, options = {}) {
   return viewer;
 }
 
-/** Returns width / height of what is drawn on the canvas. */
+/** Returns width / height of the box around the drawn pixels of the canvas. */
 function shape({ page }) {
   return page.locator("canvas").evaluate((canvas) => {
     const { width, height } = canvas, context = Object.assign(document.createElement("canvas"), { width, height }).getContext("2d");
@@ -78,7 +78,7 @@ test("a model is turned, scaled, and seen and lit as chosen, without another req
   const upright = await shape(before);
   await before.page.context().close();
 
-  // Lies on its back: what pointed up points to the back.
+  // Lays the model on its back: its former top points to the back.
   await present({ rotation: [-kHalf, 0, 0, kHalf], scale: 2, view: { azimuth: 90, elevation: 0, zoom: 0.8 }, light: { preset: "raking", angle: 90 } });
   const viewer = await open({ "field-of-view": "5deg" }), { page } = viewer;
   assert.equal(await requests(viewer), 1);
@@ -135,7 +135,7 @@ test("an operator turns, scales and presents a model in the console", async () =
   const seen = () => viewer.evaluate((element) => element.presenter.size);
   const field = (name) => page.locator(`.presentation [name=${name}]`);
 
-  // Turns: by quarters, by keys and by dragging. The daemon does not know of this yet.
+  // Turns the model with buttons, keys and the mouse. The daemon must not store this before the operator saves.
   await desk.press("Turn by 90° about x");
   near((await seen())[1], plain.depth);
   assert.deepEqual((await model()).presentation.rotation, [0, 0, 0, 1]);
@@ -157,7 +157,7 @@ test("an operator turns, scales and presents a model in the console", async () =
   await desk.press("Discard changes");
   near((await seen())[0], plain.width, 0.01);
 
-  // A known length: two points on the object are 100 mm apart in truth.
+  // Measures between two points and states twice the measured length as the true one, so the scale becomes 2.
   await desk.press("Check a known length");
   const stage = await page.locator(".stage-box").boundingBox();
   for (const part of [0.45, 0.6]) await page.mouse.click(stage.x + stage.width / 2, stage.y + stage.height * part);
@@ -169,7 +169,7 @@ test("an operator turns, scales and presents a model in the console", async () =
   near(Number(await field("scale").inputValue()), 2, 0.01);
   near((await seen())[0], 2 * plain.width, 0.02);
 
-  // The present view and light.
+  // Turns the camera, chooses raking light, and makes both the model's first view and light.
   await viewer.locator("canvas").press("ArrowRight");
   await viewer.locator("button[name=light]").click();
   await viewer.locator("label:has([value=raking])").click();
@@ -185,7 +185,7 @@ test("an operator turns, scales and presents a model in the console", async () =
   near(Number(await field("scale").inputValue()), 2, 0.01);
   await page.waitForFunction((width) => Math.abs((document.querySelector("progressive-mesh")?.presenter?.size[0] ?? 0) / width - 2) < 0.02, plain.width);
 
-  // An error stands at its field, and nothing is lost.
+  // Saves an invalid scale. The form must show an error at this field.
   await field("scale").fill("1e12");
   await desk.press("Save and show to visitors");
   await page.locator("[name=scale][aria-invalid]:focus ~ small", { hasText: "Expected: a number from" }).waitFor();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests augmented reality: which way each device goes, the files that it gets and their size in metres, and the session of WebXR.
-// The devices are stand-ins. Environment: VITRINE_BIN, VITRINE_SCREENSHOTS (a folder).
+// Tests augmented reality: what each device starts (Scene Viewer, Quick Look or WebXR), and that the model has its real size in
+// metres. Chromium imitates the devices. Environment: VITRINE_BIN, VITRINE_SCREENSHOTS (a folder).
 import assert from "node:assert/strict";
 import { mkdir, mkdtemp, readFile, rm } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -14,7 +14,7 @@ import { writeBlob } from "./models.mjs";
 
 const { VITRINE_BIN: bin, VITRINE_SCREENSHOTS: pictures } = process.env;
 const axe = await readFile(createRequire(new URL("../../web/package.json", import.meta.url)).resolve("axe-core/axe.min.js"), "utf8");
-const kMuseum = "https://museum.example"; // stands for the daemon, because only servers with TLS can offer augmented reality
+const kMuseum = "https://museum.example"; // URL under which pages see the daemon, because augmented reality needs HTTPS
 const kAndroid = "Mozilla/5.0 (Linux; Android 14; Pixel 8) AppleWebKit/537.36 (KHTML, like Gecko) Chrome/130.0 Mobile Safari/537.36";
 
 let daemon, browser, folder, extent, measured, unmeasured;
@@ -37,7 +37,7 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-/** Returns the lengths of the mesh's box along x, y and z, in the unit of the file. */
+/** Returns the size of the mesh's bounding box along x, y and z, in the unit of the file. */
 async function extentOf(ply) {
   const lines = (await readFile(ply, "utf8")).split("\n"), first = lines.indexOf("end_header") + 1;
   const vertices = lines.slice(first).map((line) => line.split(" ").map(Number)).filter((numbers) => numbers.length === 3);
@@ -51,7 +51,7 @@ function lengths(points) {
   });
 }
 
-/** Opens a model's page of the museum on a device. `device` runs in the page first. */
+/** Opens the page of a model at kMuseum. The scripts `device` (see `devices`) and `init` run before those of the page. */
 async function open(path, device, { init = () => undefined, attributes = {}, ...options } = {}) {
   const viewer = await ViewerPage.open(browser, "about:blank", { width: 390, height: 844, ...options, attributes: { transport: "http", ...attributes } });
   const { page } = viewer;
@@ -67,7 +67,7 @@ async function open(path, device, { init = () => undefined, attributes = {}, ...
   return viewer;
 }
 
-/** Devices: what runs in the page before its own scripts. */
+/** For each device, a script that makes the browser imitate it. The script runs before those of the page. */
 const devices = {
   desktop: undefined,
   phone: fakeXr,
@@ -87,7 +87,7 @@ async function faults({ page }) {
 const nearly = (values, expected, part = 0.01) => values.forEach((value, i) =>
   assert.ok(Math.abs(value - expected[i]) < part * expected[i], `${values} instead of ${expected}`));
 
-/** Fetches the file that a device gets from the museum. */
+/** Fetches the model file at `url`, which the viewer passes to the device. Returns its type and bytes. */
 async function fetched(url) {
   assert.ok(url.startsWith(`${kMuseum}/api/v1/models/`), url);
   const answer = await fetch(url.replace(kMuseum, daemon.url));
@@ -140,7 +140,7 @@ test("an iPhone opens Quick Look with a USDZ in metres", async () => {
   const href = await link.getAttribute("href"), [file, fragment] = href.split("#");
   assert.equal(file, `${kMuseum}/api/v1${measured}/export.usdz?triangles=100000`);
   assert.equal(fragment, `allowsContentScaling=0&canonicalWebPageURL=${encodeURIComponent(kMuseum + measured)}`);
-  const { type, bytes } = await fetched(file), layer = bytes.toString("latin1"); // a USDZ is not compressed
+  const { type, bytes } = await fetched(file), layer = bytes.toString("latin1"); // readable as text, because a USDZ is not compressed
   assert.equal(type, "model/vnd.usdz+zip");
   const [, metres] = /metersPerUnit = ([\d.e-]+)/.exec(layer), [, low, high] = /extent = \[\(([^)]*)\),\(([^)]*)\)\]/.exec(layer);
   const [min, max] = [low, high].map((corner) => corner.split(",").map(Number));
@@ -165,7 +165,7 @@ test("an object of unknown size is refused with a sentence in each language", as
   await page.context().close();
 });
 
-/** Runs a function of the phone in the page. */
+/** Runs `act(value)` in the page, where `window.phone` is the simulated phone (fake_xr.mjs). */
 const phone = ({ page }, act, value) => page.evaluate(act, value);
 
 test("WebXR stands the object on the floor at its real size, until the visitor leaves", async () => {
@@ -178,7 +178,7 @@ test("WebXR stands the object on the floor at its real size, until the visitor l
   await start(viewer).click();
   await page.waitForFunction(() => window.phone.session?.depths);
   assert.deepEqual(await phone(viewer, () => window.phone.asked), [{ mode: "immersive-ar", required: ["hit-test"], overlay: "room-guide" }]);
-  const height = extent[1] / 100, distance = 4, across = (metres) => (metres / distance) * 200; // pixels at that distance
+  const height = extent[1] / 100, distance = 4, across = (metres) => (metres / distance) * 200; // pixels that a length in metres covers at `distance` metres
   await phone(viewer, (y) => (window.phone.eye = [0, y, 0]), height / 2);
   assert.equal((await seen()).count, 0, "nothing stands in the air");
   await phone(viewer, (z) => Object.assign(window.phone, { floor: [0, 0, z], isWall: true }), -distance);

@@ -56,7 +56,7 @@ async function drawn(viewer) {
   return createHash("sha256").update(picture).digest("hex");
 }
 
-/** Runs in the page: a system with a dialog for sharing. It keeps what it gets, and refuses with the error `window.refusal`, if any. */
+/** Runs in the page: replaces the system's dialog for sharing. Records each shared content, and throws the error `window.refusal` if it is set. */
 function offerSharing() {
   window.shared = [];
   navigator.share = async (content) => {
@@ -65,7 +65,7 @@ function offerSharing() {
   };
 }
 
-/** Presses "Share…" and returns what the system's dialog has got. */
+/** Presses "Share…". Returns the content that the system's dialog has received. */
 async function share({ page }) {
   await page.getByRole("button", { name: "Share…" }).click();
   return page.evaluate(() => window.shared.at(-1));
@@ -92,9 +92,9 @@ test("the system's dialog gets a link that keeps view, light, section, surface, 
   const other = await open({ init: offerSharing, fragment: new URL(link).hash });
   assert.equal(await other.page.locator(".notes [aria-current]").textContent(), "Crown");
   assert.equal(await other.triangles(), await viewer.triangles());
-  await page.evaluate((hash) => (location.hash = hash), new URL(link).hash); // the angles in a link are rounded
+  await page.evaluate((hash) => (location.hash = hash), new URL(link).hash); // opens the link here too, because a link rounds angles
   const picture = await drawn(viewer);
-  for (let i = 0; i < 100 && (await drawn(other)) !== picture; ++i) await other.frames(); // until the code of the shadow is loaded
+  for (let i = 0; i < 100 && (await drawn(other)) !== picture; ++i) await other.frames(); // waits until the script for the shadow is loaded
   assert.equal(await drawn(other), picture);
   await other.sheet("save");
   assert.equal((await share(other)).url, link);
@@ -169,7 +169,7 @@ for (const [width, height, colorScheme] of [[390, 844, "dark"], [1440, 900, "lig
   });
 }
 
-/** Returns the code that the object's page offers for other sites: the element's and the frame's. */
+/** Returns the HTML that the object's page offers for embedding: one text with the element, and one with a frame. */
 async function offeredCode() {
   const viewer = await ViewerPage.open(browser, url);
   const fields = viewer.page.getByRole("textbox", { name: "Embed" });
@@ -179,7 +179,7 @@ async function offeredCode() {
   return texts;
 }
 
-/** Opens a page of another origin with `code` pasted into its text. */
+/** Opens a page of another origin whose text contains the HTML `code`. */
 async function pasted(name, code, options) {
   const words = `<h1>Diary</h1><p>Seen today:</p>${code}<p>Tomorrow more.</p>`;
   const page = site.add(name, `<!doctype html><html lang="en"><meta name="viewport" content="width=device-width"><title>Diary</title><link rel="icon" href="data:,"><main>${words}</main></html>`);

@@ -209,13 +209,13 @@ def words(root):
                     yield path, number, f'"{found[0].strip()}": {instead}'
 
 
-# Names that say nothing on their own. At most one type each has such a name; others say of what they are the part or the kind.
+# Names that are too general for several types. At most one type may have each; other types need a longer name, such as ChartPart.
 BARE_NAMES = "Part|View|Target|Kind|Fault|Connection|Axis|Box|Place"
 BARE_TYPE = re.compile(rf"\s*(?:export )?(?:struct|class|enum|enum class|interface|type|using) ({BARE_NAMES})\b(?!;)")
 
 
 def types(root):
-    """Reports types with the same full name, because the linker would mix up their members, and a bare name of two types."""
+    """Reports types with the same full name, because the linker would mix up their members. Reports each of BARE_NAMES that two types have."""
     seen, bare = {}, {}
     for path in files(root):
         if not is_source(path) or path.parts[0] not in {"codec", "acquisition", "server", "web", "tests"}:
@@ -259,8 +259,8 @@ EXTENSION_LIST = re.compile(r"(?<!\w)\.?(?:[a-z0-9]{3,4}(?:,|, |\"?, \"|\|)\.?){
 
 
 def formats(root):
-    """Reports lists of four or more mesh formats that are not those of a table, in its order. Other names, such as PMESH and ZIP, may be
-    among them. A list of extensions in code may have an order of its own, such as that of a menu."""
+    """Reports lists of four or more mesh formats that differ from all FORMAT_TABLES in content or order. A list may also contain other
+    names, such as PMESH and ZIP. A list of extensions in code may have its own order, such as that of a menu."""
     tables = {path: FORMAT_ROW.findall(text(root, path)) for path in FORMAT_TABLES if (root / path).exists()}
     yield from ((path, 1, "has no row with .name and .extension") for path, rows in tables.items() if not rows)
     names = [[name for name, _ in rows] for rows in tables.values()]

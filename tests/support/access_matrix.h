@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Secrets, which find content that must not come out, and AccessMatrix, the table of what came out.
+// Secrets finds content that a response must not contain. AccessMatrix is a table of the statuses
+// of all responses.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks that a test holds, or loses at a chosen check.
+// A lock that a test holds until a chosen number of checks.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh of any size with curved surface, as an OBJ file.
+// A mesh with a curved surface and any number of vertices, as an OBJ file.
 #pragma once
 
 #include <array>

@@ -12,7 +12,9 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kSpacing = 1, kReach = .5;  // distance between points, and reach of a match; in mm
+// Distance in mm between neighbouring points, and distance in mm below which two surfaces count as
+// one.
+constexpr double kSpacing = 1, kReach = .5;
 
 TEST(PointFeatures, DoNotDependOnThePose) {
   const SurfacePoints points = evenly_spaced(scan_of(bumpy, {}, 0).mesh, kSpacing);

@@ -46,7 +46,7 @@ class SyntheticScanner {
   double sense_;
   cv::Matx33d matrix_{3020, 0, 660, 0, 3015, 505, 0, 0, 1};
   cv::Vec4d distortion_{-0.12, 0.15, 0.0006, -0.0004};
-  // The table's axis points upwards, slightly inclined, at a distance of 345 mm.
+  // The table's axis points upwards, slightly inclined. It is 345 mm away from the camera.
   cv::Vec3d up_ = cv::normalize(cv::Vec3d(0.01, -1, 0.15)), on_axis_{1.5, 3, 345};
   // The laser plane passes the axis at a distance of 0.4 mm and is inclined to it. The angle
   // between plane and viewing direction is 28 degrees.

@@ -22,7 +22,7 @@ using rig::UsbTransport;
 
 struct Rule {
   std::string text;
-  std::vector<int> vendor, products;  // an empty list means any number
+  std::vector<int> vendor, products;  // USB IDs; an empty list allows any ID
 
   bool allows(int of, int product) const {
     const auto names = [](const std::vector<int>& ids, int id) {
@@ -32,8 +32,8 @@ struct Rule {
   }
 };
 
-// Returns the numbers that a udev match permits. For ATTR{key}=="6001|6015", these are 6001 and
-// 6015.
+// Returns the USB IDs that a udev match permits. For ATTR{key}=="6001|6015", these are 0x6001 and
+// 0x6015.
 std::vector<int> ids_in(const std::string& line, const std::string& key) {
   std::vector<int> ids;
   const std::string begin = "ATTR{" + key + "}==\"";

@@ -98,7 +98,8 @@ std::vector<double> grooved(std::size_t count) {
   return rho;
 }
 
-// Returns the largest distance in rho between the points and the sampled polyline.
+// Returns the largest difference in rho, in mm, between the points of `full` and the polyline
+// `kept` at the same height.
 double deviation(const Profile& full, const Profile& kept) {
   double largest = 0;
   for (const ProfilePoint& p : full.points) {
@@ -123,8 +124,8 @@ TEST(AdaptiveSampling, SpendsItsPointsOnDetail) {
   }
 }
 
-// Returns the rms distance in rho between the sampled polyline and `truth`, over the rows of
-// `truth`.
+// Returns the rms difference in rho, in mm, between the polyline `kept` and `truth`, over the rows
+// of `truth`.
 double rms_deviation(const std::vector<double>& truth, const Profile& kept) {
   const Profile full = profile_of(truth);
   double squares = 0;

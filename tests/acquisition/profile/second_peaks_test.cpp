@@ -38,8 +38,8 @@ TEST(SecondPeaks, PeaksThatJumpAreNoLine) {
   EXPECT_THAT(second_peaks(rows, std::vector(20, 0)), Each(-1));
 }
 
-// The chosen line changes from one surface to the other at the fourth row. In each row, the second
-// surface is the line that is not chosen.
+// The stripe is peak 0 in the first three rows, and peak 1 in the last three. In each row, the
+// other peak belongs to the second surface.
 TEST(SecondPeaks, ALineGoesOnWhereItIsChosen) {
   const auto rows = two_surfaces(6, [](int) { return 200; });
   EXPECT_THAT(second_peaks(rows, std::vector{0, 0, 0, 1, 1, 1}), ElementsAre(1, 1, 1, 0, 0, 0));

@@ -85,7 +85,8 @@ TEST(Stripe, OnABallItIsWhereTheSheetCutsTheBall) {
   EXPECT_LT(found.worst, 0.05);
 }
 
-// Returns the light that the laser adds around the pixel that sees `point`.
+// Returns the sum of the grey levels that the laser adds to 17 pixels of a row. The one in their
+// middle sees `point`.
 double light_at(const Optics& optics, const Subject& subject, const Vec3& point,
                 const Realism& realism = ideal(), Exposure exposure = {}) {
   Renderer renderer(optics, &subject, realism);

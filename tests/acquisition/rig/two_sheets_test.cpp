@@ -58,7 +58,7 @@ double area_on(const TriangleMesh& mesh, double sheet) {
   return sum;
 }
 
-// Returns the height above which the front sheet casts no shadow on the rear sheet.
+// Returns the height, in mm, above which the front sheet casts no shadow on the rear sheet.
 double shade() {
   const Vec3 source = optics_of(1).laser.source;
   const double slope = (source.z - kHeight / 2) / (source.x - kFront);

@@ -43,7 +43,7 @@ struct FakeWorld {
   std::string serial = kFakeSerial;
   FakeObject object = FakeObject::kColumn;
   bool is_ideal = false;          // the camera has no noise
-  bool forgets_position = false;  // the board restarts whenever it is opened again
+  bool forgets_position = false;  // the board does not know its position after it is reopened
 
   mutable std::mutex mutex;  // guards the members below
   std::map<std::string, int> calls;

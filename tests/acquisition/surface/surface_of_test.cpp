@@ -106,7 +106,7 @@ TEST(Surface, DoesNotDependOnTheOrderOfProfiles) {
   EXPECT_EQ(shuffled.faces, in_order.faces);
 }
 
-// The axis lies 3 mm beside the laser plane, so all points have a lateral distance of 3 mm from it.
+// The laser plane passes the axis at a distance of 3 mm, so every point is 3 mm beside the axis.
 TEST(Surface, OfAPlaneBesideTheAxisIsTheSameCylinder) {
   auto profiles = scan_of(cylinder(std::sqrt(20. * 20 - 9)));
   for (Profile& profile : profiles) {

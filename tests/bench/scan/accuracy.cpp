@@ -34,7 +34,7 @@ double top(const TriangleMesh& mesh) {
 
 // Estimates the vertical offset of the points from the surface. Ignores points at least `reach` mm
 // away. On a steep surface, the closest point says little about height, so each point is weighted
-// by the z component of its normal.
+// by the z component of the surface's normal at its closest point.
 double rise(const std::vector<Vec3>& points, const TriangleBvh& surface, double reach) {
   double sum = 0, weight = 0;
   for (const Vec3& p : points) {

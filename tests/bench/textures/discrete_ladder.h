@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The strongest competitor of a progressive model: a ladder of separate files, each with fewer
 // faces and smaller pictures. meshoptimizer simplifies the source with its own texture coordinates;
-// Draco codes the result; the pictures are masked WebP.
+// Draco codes the result; the pictures are WebP files (masked_pictures.h).
 #pragma once
 
 #include <vector>

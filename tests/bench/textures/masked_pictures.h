@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a source as WebP files, in the form in which competing formats use them.
+// The pictures of a source model as WebP files, as the compared file formats store them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace vitrine::bench {
 
 // Quality with which the pictures are written as WebP files.
 inline constexpr int kPictureQuality = 80;
-// least side, in pixels, of a picture for the competing formats
+// Smallest side, in pixels, of a picture for the compared file formats.
 inline constexpr std::uint32_t kLeastSide = 256;
 
 struct SizedPicture {
@@ -27,7 +27,7 @@ std::vector<SizedPicture> masked_pictures(const TexturedModel& model, std::uint3
 // Returns picture number `picture` of a model, unchanged.
 std::vector<std::uint8_t> unmasked_picture(const TexturedModel& model, std::uint32_t picture);
 
-// Returns the numbers of the pictures that some material uses as one of these maps.
+// Returns the numbers of the pictures that some material uses as one of `maps`.
 std::vector<std::uint32_t> used_pictures(const Texturing& texturing,
                                          std::span<const MapOfMaterial> maps);
 

@@ -11,7 +11,7 @@ namespace vitrine::bench {
 std::vector<Bytes> draco_with_coordinates(const MeshoptInput& mesh, std::size_t materials,
                                           int bits);
 
-// Returns the same files without texture coordinates.
+// Returns the files of draco_with_coordinates(), but without texture coordinates.
 std::vector<Bytes> draco_without_coordinates(const MeshoptInput& mesh, std::size_t materials,
                                              int bits);
 

@@ -13,8 +13,8 @@ document.body.append(renderer.domElement);
 const gltf = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(new DRACOLoader().setDecoderPath("/draco/"));
 
 /**
- * Draws an object alone. Returns its triangles, its size, and how many pixels it covers, in total,
- * in red and in blue.
+ * Draws an object alone. Returns its number of triangles, its size, and how many pixels it covers,
+ * in total, in red and in blue.
  */
 function shown(object) {
   const scene = new Scene().add(object, new AmbientLight(0xffffff, 1), new DirectionalLight(0xffffff, 3));

@@ -160,7 +160,7 @@ TEST(TexturedModel, TheGlbOfALevelHasItsCoordinatesAndAPictureThatFits) {
 
 // Returns a torus as GLB. Its two halves have different materials. One picture uses the first set
 // of texture coordinates. The other picture uses the second set, whose coordinates exceed 1. `move`
-// is added to the first coordinate.
+// is added to u at the first corner of the first face.
 Bytes source_glb(float move = 0) {
   ImportedMesh source = textured_torus(60, 30, 64);
   Texturing& t = source.texturing;

@@ -82,7 +82,7 @@ TEST(ReadGltf, AMissingFileIsNamedWithTheNextStep) {
 }
 
 // The missing buffer holds the picture and the positions. The reader looks up the picture first,
-// and the error must be the same.
+// and must then report the missing buffer, too.
 TEST(ReadGltf, AMissingBufferWithAPictureIsNamedToo) {
   GlbBuilder builder = skinned();
   builder.document["images"][0] = {{"bufferView", builder.view(red_and_blue())}};

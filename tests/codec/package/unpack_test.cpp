@@ -182,8 +182,8 @@ TEST(Unpack, ChangedContentsAreRefused) {
   EXPECT_THAT(fault_of(gzip), HasSubstr("damaged"));
 }
 
-// Expects that a damaged package gives an error of one line, or files that are not larger than
-// those of an intact package may be.
+// Expects that unpacking a damaged package gives an error of one line, or files within the limit of
+// size that applies to every package.
 void expect_harmless(const std::string& package) {
   if (!is_package(as_bytes(package))) return;
   const auto files = unpack(as_bytes(package), keeps_all);

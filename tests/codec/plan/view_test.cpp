@@ -131,7 +131,8 @@ TEST(View, NoErrorInSightIsAboveOnePixel) {
   }
 }
 
-// Returns the depth of a point, or infinity if the view does not show the point.
+// Returns the distance of a point from the eye along the viewing direction, or infinity if the view
+// does not show the point.
 double depth_in_sight(const Vec3& p, const View& view) {
   const auto axis = [&](std::size_t k) {
     return Vec3{view.camera[4 * k], view.camera[4 * k + 1], view.camera[4 * k + 2]};
@@ -144,8 +145,7 @@ double depth_in_sight(const Vec3& p, const View& view) {
   return seen ? depth : std::numeric_limits<double>::infinity();
 }
 
-// Returns the smallest depth of the grid points in the box, counting only points that the view
-// shows.
+// Takes a grid of points in the box. Returns the smallest depth_in_sight() of these points.
 double least_depth(const LatticeBox& box, const View& view) {
   constexpr int kSteps = 40;
   const Vec3 low = to_vec3(box.low), size = to_vec3(box.high) - low;

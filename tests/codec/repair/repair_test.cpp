@@ -93,7 +93,7 @@ TEST(Repair, SolidsThatTouchAtAnEdgePartAndStayClosed) {
 }
 
 TEST(Repair, AThirdSheetAtAnEdgeKeepsAllItsFaces) {
-  TriangleMesh mesh = grid(2);  // the third face added below shares the edge 4-5
+  TriangleMesh mesh = grid(2);  // the face added below is the third one at the edge 4-5
   mesh.positions.push_back({1.5, 1, 1});
   mesh.faces.push_back({4, 5, 9});
   const auto result = repaired(mesh);

@@ -110,7 +110,7 @@ class NotesApi : public testing::Test {
   HttpAnswer put(const json& notes) { return put("/notes", {{"notes", notes}}, operator_); }
   std::string header() { return get(api_ + "/head").field("vitrine-presentation"); }
 
-  // Makes the next `count` calls of put() by a PUT lose against another change.
+  // In the next `count` calls of put() by a PUT, another change comes first, so the call fails.
   void contest(int count) {
     before_put = [count, id = id_](Services& services) mutable {
       if (count-- <= 0) return;

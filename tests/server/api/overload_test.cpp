@@ -167,7 +167,7 @@ class SlowReads {
   }
 
   std::vector<std::unique_ptr<test::HttpClient>> clients_;
-  int not_seen_ = kReads;  // number of reads whose begin was not awaited
+  int not_seen_ = kReads;  // number of reads whose start the test has not awaited
 };
 
 TEST(Overload, AnAddressWithManySlowReadsDelaysNoReadOfAnother) {

@@ -172,7 +172,8 @@ TEST(Start, AFileThatCannotBeWrittenIsNamedBeforeAPortInUse) {
         run_vitrined({"--listen", address, "--data", data, flag, file + "/below"});
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.output, HasSubstr(flag.substr(2) + ": cannot write " + file + "/below"));
-    // The daemon creates its data folder, so files may be in it before it exists.
+    // The daemon creates its data folder itself, so options may name files in a folder that does
+    // not exist yet. The start fails only because the address is in use.
     EXPECT_THAT(run_vitrined({"--listen", address, "--data", data, flag, data + "/below"}).output,
                 HasSubstr("cannot listen on " + address));
   }

@@ -143,7 +143,7 @@ TEST(ShortAddresses, StandInAllLogs) {
     WebSocketClient stream(daemon.port(), "/api/v1/models/" + id + "/stream?head=true", "pmesh.v1",
                            client);
     stream.receive();
-    http_get(daemon.port(), "/nothing");  // from the proxy itself
+    http_get(daemon.port(), "/nothing");  // a request by the proxy itself
   }
   daemon.signal(SIGTERM);
   const ProgramResult result = daemon.wait();

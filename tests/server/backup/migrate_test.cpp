@@ -77,7 +77,8 @@ TEST_F(MigrateFolder, FilesThatOnlyTheDestinationHasIntactAreNotListed) {
   ASSERT_TRUE(run());
   damage_object(folder_.path() / "from", damaged);
   ASSERT_TRUE(from_.store->remove(lost));
-  from_ = open_installation({.folder = folder_.path() / "from"}).value();  // it has hashed no file
+  // Reopens the source, so that it does not remember which files it has checked already.
+  from_ = open_installation({.folder = folder_.path() / "from"}).value();
   const auto done = run();
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_TRUE(done->damaged.empty());
@@ -91,7 +92,8 @@ TEST_F(MigrateFolder, DamagedAndMissingFilesNeedNoRoom) {
   const Sha256 damaged = add("Damaged"), lost = add("Lost");
   damage_object(folder_.path() / "from", damaged);
   ASSERT_TRUE(from_.store->remove(lost));
-  from_ = open_installation({.folder = folder_.path() / "from"}).value();  // it has hashed no file
+  // Reopens the source, so that it does not remember which files it has checked already.
+  from_ = open_installation({.folder = folder_.path() / "from"}).value();
   const auto done = run({.disk = {.quota = 1, .reserve = UINT64_MAX}, .uploads = {}});
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_EQ(done->damaged.size(), 2u);

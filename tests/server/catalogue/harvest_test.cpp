@@ -18,7 +18,8 @@ class HarvestTimes : public testing::Test {
     ASSERT_TRUE(catalogue_->add(record_, {}));
   }
 
-  // Makes the last change one of 1970. Returns the time of the last change after `change`.
+  // Sets the time of the model's last change to a time in 1970, and calls `change`. Returns the new
+  // time of the last change, in seconds since 1970.
   template <class Change>
   std::int64_t time_after(const Change& change) {
     sqlite::SqliteHandle(file_).run("UPDATE model_index SET changed = 7");

@@ -185,8 +185,8 @@ TEST_F(SqliteDamage, AFlippedBitIsFoundOrChangesNoContent) {
   }
 }
 
-// These values are stored twice, in the table and in an index. A change of either copy must be
-// found.
+// A model's title and a token's hash are stored twice: in a table and in an index. A change of
+// either copy must be found.
 TEST_F(SqliteDamage, AFlippedBitInAValueIsFound) {
   const std::string hash = {7, 5};  // first bytes of the hash of token 7, which fill() adds
   for (const std::string& value : {std::string("Bust 7"), hash + std::string(30, '\0')}) {

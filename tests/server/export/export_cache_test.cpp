@@ -65,8 +65,8 @@ TEST(ExportCache, WhatFailsIsMadeAgain) {
 
 constexpr int kVisitors = 4;
 
-// Several clients request the file at the same time, while it is being made. Returns the result of
-// each request.
+// Requests the same file from kVisitors threads at the same time. `make` runs only after all of
+// them have started. Returns the result of each request.
 template <class Make>
 std::vector<Expected<ExportCache::File>> all_at_once(ExportCache& cache, const Make& make) {
   std::latch here(kVisitors);

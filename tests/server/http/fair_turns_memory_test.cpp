@@ -6,7 +6,8 @@
 namespace vitrine::server {
 namespace {
 
-// Calls `action` and lets its allocation number `n` fail. Returns whether there was one.
+// Calls `action` and lets its allocation number `n` fail. Returns false if `action` allocates less
+// than `n` times.
 template <class Action>
 bool fails(std::size_t n, const Action& action) {
   const std::size_t before = test::allocations();

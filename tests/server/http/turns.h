@@ -13,10 +13,11 @@ namespace vitrine::test {
 
 class Turns : public ::testing::Test {
  private:
-  server::asio::io_context io_;  // destroyed last, because tasks that wait have timers
+  server::asio::io_context io_;  // destroyed last, because waiting tasks have timers that use it
 
  protected:
-  // Waits for a turn of the owner, the first letter of `task`. The turn lasts until end(task).
+  // Lets `task` wait for a turn. The first letter of its name is the owner. The turn lasts until
+  // end(task).
   void begin(const std::string& task, const std::string& target = "") {
     auto in_turn = [this, task, target]() -> server::asio::awaitable<void> {
       running_[task] = co_await turns->wait(task.substr(0, 1), target);

@@ -21,7 +21,7 @@ TEST(ScanOrder, AScannerIsEnough) {
   const auto order = parse_scan_order({{"scanner", "rig"}});
   ASSERT_TRUE(order);
   EXPECT_EQ(order->request.steps, 720);
-  const acquisition::Processing otherwise;  // the default values of the command line
+  const acquisition::Processing otherwise;  // the defaults, which the command line also uses
   EXPECT_EQ(order->request.processing.stripe, otherwise.stripe);
   EXPECT_EQ(order->request.processing.sampling.window, otherwise.sampling.window);
   EXPECT_EQ(order->request.processing.sampling.method, otherwise.sampling.method);

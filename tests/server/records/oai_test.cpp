@@ -37,7 +37,8 @@ class Oai : public testing::Test {
     return model.id;
   }
 
-  // Changes the time of the last change of all models that have none yet.
+  // Sets the time of the last change, in seconds since 1970, of all models for which an earlier
+  // call has not set it. `seconds` must be at most 1,500,000,000.
   void changed_at(std::int64_t seconds) {
     sqlite::SqliteHandle(file_).run(
         fmt::format("UPDATE model_index SET changed = {} WHERE changed > 1500000000", seconds)
@@ -174,7 +175,8 @@ TEST_F(Oai, ListsTheModelsOfASet) {
   EXPECT_EQ(error_of(list + "_c3"), "badArgument");
 }
 
-// Follows the resumption tokens of a list. Returns the values at `path` on all its pages.
+// A fixture for lists of several pages. all_pages() follows the resumption tokens of a list, and
+// returns the values at the XPath `path` on all pages.
 class OaiPages : public Oai {
  protected:
   std::vector<std::string> all_pages(const std::string& verb, const std::string& arguments,
@@ -224,7 +226,7 @@ TEST_F(OaiPages, HaveEachSetOnce) {
 TEST_F(OaiPages, AreShorterIfTheTextsAreLong) {
   ModelRecord model{.state = ModelState::kPublished};
   model.more["description"] = std::string(16'384, 'a');
-  constexpr std::size_t kModels = 2 * kOaiPageBytes / 16'384;  // fill two pages
+  constexpr std::size_t kModels = 2 * kOaiPageBytes / 16'384;  // as many as fill two pages
   for (std::size_t i = 0; i < kModels; ++i) {
     model.id = ModelId::generate();
     ASSERT_TRUE(catalogue_->add(model, {}));
@@ -262,7 +264,7 @@ TEST_F(OaiPages, LackNoModelThatIsChangedOrWithdrawnMeanwhile) {
   const auto rest = ask_for(
       "verb=ListIdentifiers&resumptionToken=" + values_in_xml(first, "//resumptionToken").at(0),
       "//identifier");
-  EXPECT_EQ(rest.size(), 2u);  // the model that was left, and the one that was changed
+  EXPECT_EQ(rest.size(), 2u);  // the model that was not listed yet, and the changed one
   EXPECT_EQ(rest.back(), id_of(added[0]));
   listed.insert(listed.end(), rest.begin(), rest.end());
   EXPECT_EQ(std::set(listed.begin(), listed.end()).size(), added.size() - 1);

@@ -180,7 +180,7 @@ TEST_F(PublishedModelsTest, AFailureIsSharedUntilItIsStaleOrSomethingChanges) {
     EXPECT_EQ(lazy.find(id).error().code, ErrorCode::kIo);
   EXPECT_EQ(store_.opened, 1);
   for (int i = 0; i < 3; ++i)
-    EXPECT_FALSE(models_.find(id));  // its failures are stale at once
+    EXPECT_FALSE(models_.find(id));  // this cache keeps a failure for 0 ms
   EXPECT_EQ(store_.opened, 4);
   store_.is_away = false;
   EXPECT_FALSE(lazy.find(id));

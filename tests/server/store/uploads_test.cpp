@@ -72,7 +72,7 @@ TEST_F(UploadsTest, LimitsAreKept) {
 TEST_F(UploadsTest, ASweepRemovesExpiredUploadsThatAreNotInUse) {
   const Upload used = uploads_.create(token(1), 2, "").value();
   const Upload left = uploads_.create(token(1), 2, "").value();
-  EXPECT_EQ(uploads_.sweep({}, used.expires - 1).value(), 0u);  // it expires first
+  EXPECT_EQ(uploads_.sweep({}, used.expires - 1).value(), 0u);  // no upload has expired yet
   EXPECT_EQ(uploads_.sweep({used.id}, kLate).value(), 1u);
   EXPECT_TRUE(uploads_.find(used.id));
   EXPECT_EQ(uploads_.find(left.id).error().cause, UploadFault::kGone);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base of catalogues that fail or wait in single functions.
+// A base class for test catalogues that replace single functions of another catalogue.
 #pragma once
 
 #include "server/catalogue/catalogue.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base of object stores that fail or wait in single functions.
+// A base class for test stores that replace single functions of another object store.
 #pragma once
 
 #include "server/store/object_store.h"

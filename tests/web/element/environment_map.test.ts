@@ -7,8 +7,8 @@ type Triple = [number, number, number];
 
 /**
  * Indices of texels. A face of the sharpest level has 32 x 32 texels; `u` and `v` are positions in
- * the face, from 0 to 1. A face of a blurred level has 16 x 16 texels; the index is that of its
- * middle.
+ * the face, from 0 to 1. A face of a blurred level has 16 x 16 texels; blurred() returns the index
+ * of the texel in the middle of the face.
  */
 const sharp = (face: number, u = 0.5, v = 0.5) => texel(32 * (face % 3) + 1 + 30 * u, (face > 2 ? 32 : 0) + 1 + 30 * v);
 const blurred = (level: number, face: number) => texel(48 * level + 16 * (face % 3) + 8, 64 + (face > 2 ? 16 : 0) + 8);

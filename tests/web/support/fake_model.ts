@@ -56,7 +56,7 @@ export class FakeDecoder implements ModelDecoder {
   readonly parents = new Uint32Array();
   checkBase = () => undefined;
   checkAtlas = () => undefined;
-  /** Throws the errors of this list, one for each call. */
+  /** The errors that checkPicture() throws, one in each call, beginning with the last. */
   damagedPictures: Error[] = [];
   atlasBytes = 0;
 

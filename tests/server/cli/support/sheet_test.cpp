@@ -81,7 +81,7 @@ TEST(Sheet, FaultsNameLineAndNextStep) {
   expect_fault(many, ErrorCode::kLimit, "more than 100000 rows");
 }
 
-// Whatever the bytes, the rows have a file, and each file has one row.
+// Reads random tables of CSV. If the reader accepts a table, each of its rows must name a file.
 TEST(Sheet, RandomBytesGiveRowsOrAnError) {
   std::mt19937 random(7);
   constexpr std::string_view kBytes = "file,title;\t\"\"\"\r\n\n ab";
