@@ -3,6 +3,7 @@
 // vertices with equal positions.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "codec/core/byte_cursor.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84;  // 80 bytes of free text, then the number of facets
 constexpr std::size_t kFacetBytes = 50;
+constexpr float kMostUnitNormal = 1.01F;  // largest component of a normal of length 1
 
 std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -78,14 +80,13 @@ bool are_plausible_facets(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// Whether the bytes after the stated number of facets are more facets. Their numbers must be
-// plausible, no component of a normal may exceed 1.01, and not all bytes may be zero.
-bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
-  constexpr float kMostNormal = 1.01F;
+// Whether all facets in the bytes have plausible corners. No component of a normal may exceed
+// `most_normal`, and not all bytes may be zero.
+bool have_plausible_corners(std::span<const std::uint8_t> bytes, float most_normal) {
   ByteReader facets(bytes);
   for (std::size_t f = 0; f < bytes.size() / kFacetBytes; ++f) {
     for (int k = 0; k < 3; ++k) {
-      if (std::abs(facets.read<float>()) > kMostNormal) return false;  // NaN is allowed
+      if (std::abs(facets.read<float>()) > most_normal) return false;  // NaN is allowed
     }
     for (int k = 0; k < 9; ++k) {
       if (!is_plausible(facets.read<float>())) return false;
@@ -110,6 +111,17 @@ bool are_mostly_triangles(std::span<const std::uint8_t> file) {
     triangles += corner(0) != corner(1) && corner(1) != corner(2) && corner(2) != corner(0);
   }
   return count >= kFewestFacets && triangles > count / 2;
+}
+
+// Whether the facets of the file after the first `known` ones are facets, too. Normals may have any
+// length, as some programs write them, if the file otherwise looks like nothing but triangles.
+// `is_whole`: the file ends with the last facet
+bool are_surplus_facets(std::span<const std::uint8_t> file, std::size_t known, bool is_whole) {
+  const bool are_triangles = are_mostly_triangles(file);
+  if (known == 0 && !is_whole && !are_triangles) return false;
+  const float most_normal =
+      is_whole && are_triangles ? std::numeric_limits<float>::infinity() : kMostUnitNormal;
+  return have_plausible_corners(file.subspan(kHeaderBytes + kFacetBytes * known), most_normal);
 }
 
 std::uint32_t stated_facets(std::span<const std::uint8_t> bytes) {
@@ -145,10 +157,7 @@ std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
   const bool is_believed = stated > 0 && stated <= kMostFacets;
   if (is_believed && stated > there) return std::nullopt;
   const std::size_t known = is_believed ? stated : 0;
-  const bool may_have_more =
-      known < there && (is_believed || is_whole || are_mostly_triangles(bytes));
-  if (may_have_more && are_surplus_facets(bytes.subspan(kHeaderBytes + kFacetBytes * known)))
-    return there;
+  if (known < there && are_surplus_facets(bytes, known, is_whole)) return there;
   return is_believed ? std::optional(stated) : std::nullopt;
 }
 

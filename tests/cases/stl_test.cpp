@@ -31,6 +31,13 @@ std::string binary_stl(std::uint32_t count, const std::string& header = "binary"
   return file;
 }
 
+// Returns the binary STL `file` with the normal (0, 0, z) in all four facets.
+std::string with_normals(std::string file, float z) {
+  for (std::size_t f = 0; f < 4; ++f)
+    file.replace(84 + 50 * f, 12, bytes_of<float>({0, 0, z}));
+  return file;
+}
+
 std::vector<Case> counts_of_facets() {
   const std::string blanks(80, ' ');
   return {{.situation = "count too small",
@@ -59,7 +66,19 @@ std::vector<Case> counts_of_facets() {
            .said = "100 bytes after the counted facets are no facets"},
           {.situation = "a text after the facets",
            .file = binary_stl(4) + std::string(60, 'q'),
-           .said = "60 bytes after the counted facets are no facets"}};
+           .said = "60 bytes after the counted facets are no facets"},
+          {.situation = "count too small and long normals",
+           .file = with_normals(binary_stl(2), 25),
+           .said = "4 facets read by the file's size, though its header counts 2; "},
+          {.situation = "count too small and infinite normals",
+           .file = with_normals(binary_stl(2), testing::kInfinity),
+           .said = "header counts 2; "},
+          {.situation = "count 0 and long normals",
+           .file = with_normals(binary_stl(0), 25),
+           .said = "header counts 0; "},
+          {.situation = "all ones and long normals",
+           .file = with_normals(binary_stl(~0u), 25),
+           .said = "header counts 4294967295; "}};
 }
 
 TEST(StlCases, ACredibleCountBeyondTheFileMeansThatItIsCutShort) {
