@@ -28,6 +28,8 @@ struct Facets {
   std::vector<Vec3> corners;
   // One colour per facet, or kNoColour. Colours of the last facets may be missing.
   std::vector<StatedColour> colours;
+  // Number of facets whose attribute bytes are not known to be a colour.
+  std::size_t unknown_attributes = 0;
 
   void paint(const StatedColour& colour) {
     colours.resize(corners.size() / 3, kNoColour);
@@ -60,6 +62,10 @@ Expected<RawMesh> weld_facets(Facets facets) {
     mesh.add_triangle({index[i], index[i + 1], index[i + 2]});
   }
   paint_faces(facets.colours, index, mesh);
+  if (facets.unknown_attributes > 0)
+    mesh.repairs.push_back("attribute bytes of " + counted(facets.unknown_attributes, "facet") +
+                           " not carried: nothing in the file says that they are colours; to keep "
+                           "colours, export PLY or OBJ");
   return mesh;
 }
 
@@ -182,20 +188,21 @@ StatedColour facet_colour(std::uint16_t bits, const std::optional<StatedColour>&
   return flag ? StatedColour{part(10), part(5), part(0)} : kNoColour;
 }
 
-std::vector<StatedColour> colours_of_facets(std::span<const std::uint8_t> bytes,
-                                            std::size_t count) {
-  auto of_object = object_colour(bytes);
+// Reads the colours of the first `count` facets from their attribute bytes.
+void read_colours(std::span<const std::uint8_t> bytes, std::size_t count, Facets& out) {
+  const auto of_object = object_colour(bytes);
   const auto bits = [&](std::size_t f) {
     return load<std::uint16_t>(&bytes[kHeaderBytes + kFacetBytes * (f + 1) - 2]);
   };
   bool has_bits = false;
   for (std::size_t f = 0; f < count && !has_bits; ++f)
     has_bits = bits(f) != 0;
-  if (!has_bits && !of_object) return {};
-  std::vector<StatedColour> colours(count);
-  for (std::size_t f = 0; f < count; ++f)
-    colours[f] = has_bits ? facet_colour(bits(f), of_object) : *of_object;
-  return colours;
+  if (!has_bits && !of_object) return;
+  out.colours.resize(count);
+  for (std::size_t f = 0; f < count; ++f) {
+    out.colours[f] = has_bits ? facet_colour(bits(f), of_object) : *of_object;
+    out.unknown_attributes += bits(f) != 0 && std::isnan(out.colours[f][0]);
+  }
 }
 
 std::string report_count(std::span<const std::uint8_t> bytes, std::size_t count) {
@@ -223,7 +230,7 @@ Expected<RawMesh> read_binary(std::span<const std::uint8_t> bytes, std::size_t c
     }
     facets.skip(2);
   }
-  out.colours = colours_of_facets(bytes, count);
+  read_colours(bytes, count, out);
   auto mesh = weld_facets(std::move(out));
   if (const auto line = report_count(bytes, count); mesh && !line.empty())
     mesh->repairs.push_back(line);

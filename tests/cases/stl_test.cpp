@@ -16,6 +16,7 @@ using vitrine::testing::expect_case;
 using vitrine::testing::kBlueCase;
 using vitrine::testing::kGreenCase;
 using vitrine::testing::kRedCase;
+using vitrine::testing::kWhiteCase;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 using vitrine::testing::tetrahedron;
@@ -102,26 +103,35 @@ constexpr std::uint16_t kMagicsRed = 0x001F, kMagicsGreen = 0x03E0, kMagicsDefau
 
 std::vector<Case> colours_of_facets() {
   const std::string green = "COLOR=" + bytes_of<std::uint8_t>({0, 255, 0, 255});
-  return {{.situation = "VisCAM, one colour",
-           .file = binary_stl(4, "x", std::vector(4, kVisCamBlue)),
-           .colours = std::vector(4, kBlueCase)},
-          {.situation = "VisCAM, one facet coloured",
-           .file = binary_stl(4, "x", {kVisCamRed}),
-           .colours = {kRedCase, kRedCase, kRedCase, {255, 255, 255}}},
-          {.situation = "VisCAM, two colours",
-           .file = binary_stl(4, "x", {kVisCamRed, kVisCamBlue}),
-           .colours = {{188, 0, 188}, kRedCase, {188, 0, 188}, kBlueCase},
-           .said = "colours of 2 faces averaged at the vertices"},
-          {.situation = "Magics",
-           .file = binary_stl(4, green, std::vector(4, kMagicsRed)),
-           .colours = std::vector(4, kRedCase)},
-          {.situation = "Magics, the object's colour",
-           .file = binary_stl(4, "x " + green,
-                              {kMagicsDefault, kMagicsGreen, kMagicsDefault, kMagicsDefault}),
-           .colours = std::vector(4, kGreenCase)},
-          {.situation = "Magics, without facet colours",
-           .file = binary_stl(4, green),
-           .colours = std::vector(4, kGreenCase)}};
+  return {
+      {.situation = "VisCAM, one colour",
+       .file = binary_stl(4, "x", std::vector(4, kVisCamBlue)),
+       .colours = std::vector(4, kBlueCase)},
+      {.situation = "VisCAM, one facet coloured",
+       .file = binary_stl(4, "x", {kVisCamRed}),
+       .colours = {kRedCase, kRedCase, kRedCase, {255, 255, 255}}},
+      {.situation = "VisCAM, two colours",
+       .file = binary_stl(4, "x", {kVisCamRed, kVisCamBlue}),
+       .colours = {{188, 0, 188}, kRedCase, {188, 0, 188}, kBlueCase},
+       .said = "colours of 2 faces averaged at the vertices"},
+      {.situation = "Magics",
+       .file = binary_stl(4, green, std::vector(4, kMagicsRed)),
+       .colours = std::vector(4, kRedCase)},
+      {.situation = "Magics, the object's colour",
+       .file = binary_stl(4, "x " + green,
+                          {kMagicsDefault, kMagicsGreen, kMagicsDefault, kMagicsDefault}),
+       .colours = std::vector(4, kGreenCase)},
+      {.situation = "Magics, without facet colours",
+       .file = binary_stl(4, green),
+       .colours = std::vector(4, kGreenCase)},
+      {.situation = "no flag and no object's colour",
+       .file = binary_stl(4, "x", {kMagicsRed, 0, kMagicsGreen}),
+       .said = "attribute bytes of 2 facets not carried: nothing in the file says that they are "
+               "colours; to keep colours, export PLY or OBJ"},
+      {.situation = "VisCAM, a facet without the flag",
+       .file = binary_stl(4, "x", {kVisCamRed, kMagicsGreen}),
+       .colours = {kRedCase, kRedCase, kRedCase, kWhiteCase},
+       .said = "attribute bytes of 1 facet not carried"}};
 }
 
 // Writes a tetrahedron as text STL with the given spelling of each statement.
