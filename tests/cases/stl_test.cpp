@@ -82,11 +82,26 @@ std::vector<Case> counts_of_facets() {
            .said = "header counts 4294967295; "}};
 }
 
-TEST(StlCases, ACredibleCountBeyondTheFileMeansThatItIsCutShort) {
-  for (const std::uint32_t count : {5U, 9U, 500'000'000U})
-    EXPECT_EQ(refusal(binary_stl(count)), "the STL file is cut short: only 4 of " +
-                                              std::to_string(count) +
-                                              " triangles are there; copy it again");
+std::vector<Case> files_cut_short() {
+  const std::string whole = binary_stl(4);
+  return {{.situation = "count too large",
+           .file = binary_stl(9),
+           .said = "4 facets read by the file's size, though its header counts 9; the file may be "
+                   "cut short: compare the model with its source"},
+          {.situation = "the largest credible count",
+           .file = binary_stl(500'000'000),
+           .said = "header counts 500000000; the file may be cut short: "},
+          {.situation = "the last byte is missing",
+           .file = whole.substr(0, whole.size() - 1),
+           .faces = 3,
+           .said = "3 facets read by the file's size, and 49 bytes after them not, though its "
+                   "header counts 4; the file may be cut short: "},
+          {.situation = "solid in the header",
+           .file = binary_stl(9, "solid x"),
+           .said = "header counts 9; "},
+          {.situation = "numbers that are no unit normals",
+           .file = with_normals(binary_stl(9), 25),
+           .refused = "the STL file is cut short: only 4 of 9 triangles are there; copy it again"}};
 }
 
 // Text that is read as binary facets gives plausible small floats.
@@ -200,6 +215,39 @@ TEST(StlCases, DecimalCommasAreNamed) {
               HasSubstr("STL line 4: numbers have decimal commas"));
 }
 
+std::vector<Case> texts_without_an_end() {
+  const std::string whole = Spelling{}.file(), end = Spelling{}.solid_end + "\n";
+  const std::string solid = whole.substr(0, whole.size() - end.size());
+  const auto cut_before = [&](const std::string& word) {
+    return whole.substr(0, whole.rfind(word));
+  };
+  const std::string said =
+      " read from a text without endsolid at its end; the file may be cut "
+      "short: compare the model with its source";
+  return {
+      {.situation = "no endsolid", .file = solid, .said = "4 facets" + said},
+      {.situation = "no line feed", .file = cut_before("\nendsolid"), .said = "4 facets" + said},
+      {.situation = "within a word",
+       .file = cut_before("loop\nendfacet"),
+       .faces = 3,
+       .said = "3 facets" + said},
+      {.situation = "within a corner",
+       .file = cut_before(" 0 1\nendloop"),
+       .faces = 3,
+       .said = "3 facets" + said},
+      {.situation = "within a number",
+       .file = cut_before("0 1\nendloop") + "-",
+       .faces = 3,
+       .said = "3 facets" + said},
+      {.situation = "within the second solid",
+       .file = whole + solid,
+       .faces = 8,
+       .said = "8 facets" + said},
+      {.situation = "before the first facet ends",
+       .file = whole.substr(0, whole.find("endloop")),
+       .refused = "the STL file has no endsolid; it is cut short, copy it again"}};
+}
+
 std::vector<Case> solids_on_one_line() {
   const auto on_one_line = [](std::string text) {
     std::ranges::replace(text, '\n', ' ');
@@ -220,6 +268,8 @@ std::vector<testing::FileKind> testing::stl_kinds() {
           {"qnan_normal.stl", normals_without_numbers()},
           {"colour.stl", colours_of_facets()},
           {"comma.stl", decimal_commas()},
+          {"cut_short.stl", files_cut_short()},
+          {"no_endsolid.stl", texts_without_an_end()},
           {"one_line.stl", solids_on_one_line()}};
 }
 
