@@ -148,17 +148,20 @@ Slot slot_of(const PlyProperty& property) {
   return kNowhere;
 }
 
-// Returns the factor that scales a colour component of this type to [0, 1].
-double scale_of(PlyType type) {
-  switch (type) {
-    case PlyType::kFloat32:
-    case PlyType::kFloat64:
-      return 1;
-    case PlyType::kUint16:
-      return 1.0 / 65535;
-    default:
-      return 1.0 / 255;  // wider integer types hold values from 0 to 255 as well
-  }
+bool is_byte(PlyType type) {
+  return type == PlyType::kInt8 || type == PlyType::kUint8;
+}
+
+// Whether the type is an integer that holds colours up to 65535. Some programs write colours up to
+// 255 with such a type.
+bool is_wide_integer(PlyType type) {
+  return !is_byte(type) && !is_real(type);
+}
+
+// Whether `opacity`, a value of this type, is less than full.
+bool is_translucent_value(PlyType type, double opacity) {
+  if (is_byte(type)) return opacity < 255;
+  return is_wide_integer(type) ? opacity < 65535 && opacity != 255 : is_translucent(opacity);
 }
 
 // Whether the reader needs a property of a vertex, or may drop it without a loss: normals follow
@@ -173,14 +176,11 @@ struct VertexPlan {
   std::vector<Slot> slots;
   std::vector<PlyType> types;  // per property: the type with which it is read
   unsigned found = 0;          // bit n is set if the file has slot n
-  double colour_scale = 1;
+  PlyType colour_type = PlyType::kUint8;
+  PlyType alpha_type = PlyType::kUint8;
   bool has_normal = false;
-  // Whether the range of the colours is unknown: floats are up to 1 or up to 255, 16-bit integers
-  // are up to 65535 or up to 255.
-  bool has_open_range = false;
   bool has_float_bits = false;  // whether packed colours are stored as floats
   bool has_packed_alpha = false;
-  double alpha_scale = 1;
 
   VertexPlan(const PlyElement& element, bool is_text) {
     for (const PlyProperty& property : element.properties) {
@@ -189,14 +189,11 @@ struct VertexPlan {
       slots.push_back(slot);
       types.push_back(has_bits ? PlyType::kUint32 : property.type);
       has_float_bits = has_float_bits || (has_bits && is_text);
-      has_open_range =
-          has_open_range ||
-          (slot == kRed && (is_real(property.type) || property.type == PlyType::kUint16));
       found |= 1u << slot;
       has_normal = has_normal || property.name == "nx";
       has_packed_alpha = has_packed_alpha || (slot == kPacked && property.name == "rgba");
-      if (slot == kRed) colour_scale = scale_of(property.type);
-      if (slot == kAlpha) alpha_scale = scale_of(property.type);
+      if (slot == kRed) colour_type = property.type;
+      if (slot == kAlpha) alpha_type = property.type;
     }
   }
   bool has_position() const { return (found & 7) == 7; }
@@ -224,6 +221,7 @@ class BodyReader {
       if (!ok) return tl::unexpected(ok.error());
     }
     finish_texture();
+    if (has_wide_faces_) face_colours_.scale_wide_integers();
     face_colours_.give_to(mesh_);
     textures_.give_to(mesh_);
     return std::move(mesh_);
@@ -298,20 +296,10 @@ class BodyReader {
       if (plan.has_place() && !textures_.empty())
         mesh_.vertex_coordinates[0].push_back(from_upwards(row[kU], row[kV]));
     }
-    if (plan.colour_scale == scale_of(PlyType::kUint16)) scale_wide(stated);
+    if (is_wide_integer(plan.colour_type)) scale_wide_integers(stated);
     if (!stated.empty()) mesh_.attributes.colours = to_colours(stated, mesh_.repairs);
     report_unread(element);
     return {};
-  }
-
-  // Scales colours of 16-bit integers to the range 0 to 1, unless none is above 255.
-  static void scale_wide(std::vector<StatedColour>& stated) {
-    const auto is_wide = [](const StatedColour& colour) { return std::ranges::max(colour) > 255; };
-    if (std::ranges::none_of(stated, is_wide)) return;
-    for (StatedColour& colour : stated) {
-      for (float& part : colour)
-        part /= 65535;
-    }
   }
 
   void report_unread(const PlyElement& element) {
@@ -327,22 +315,21 @@ class BodyReader {
   }
 
   // Adds a vertex colour to the mesh. Adds it to `stated` instead if its range is known only after
-  // the last vertex.
+  // the last vertex: floats are up to 1 or up to 255, wide integers up to 65535 or up to 255.
   void add_colour(const VertexPlan& plan, const SlotValues& row,
                   std::vector<StatedColour>& stated) {
     std::vector<Colour>& colours = mesh_.attributes.colours;
-    const double scale = plan.colour_scale;
     if (plan.has_alpha())
-      mesh_.translucent_colours += is_translucent(row[kAlpha] * plan.alpha_scale);
+      mesh_.translucent_colours += is_translucent_value(plan.alpha_type, row[kAlpha]);
     if (plan.has_packed_colour()) {
       const std::uint32_t bits = packed_bits(row[kPacked], plan.has_float_bits);
       colours.push_back(unpacked(bits));
       mesh_.translucent_colours += plan.has_packed_alpha && bits >> 24 != 255;
-    } else if (plan.has_colour() && plan.has_open_range) {
-      stated.push_back(stated_colour(row));
-    } else if (plan.has_colour()) {
+    } else if (plan.has_colour() && is_byte(plan.colour_type)) {
       colours.push_back(
-          {to_byte(row[kRed] * scale), to_byte(row[kGreen] * scale), to_byte(row[kBlue] * scale)});
+          {to_byte(row[kRed] / 255), to_byte(row[kGreen] / 255), to_byte(row[kBlue] / 255)});
+    } else if (plan.has_colour()) {
+      stated.push_back(stated_colour(row));
     }
   }
 
@@ -359,6 +346,7 @@ class BodyReader {
     bool has_list = false;
     for (const PlyProperty& p : element.properties) {
       has_list = has_list || (p.is_list && p.name.starts_with(list));
+      has_wide_faces_ = has_wide_faces_ || (slot_of(p) == kRed && is_wide_integer(p.type));
       if (p.name == "texcoord" && !uses_places()) {
         mesh_.repairs.push_back("texture coordinates of " + counted(element.count, "face") +
                                 " not carried; to use them, name the picture in a comment "
@@ -373,7 +361,7 @@ class BodyReader {
       if (!row_.has_corners) continue;
       if (row_.colour_parts == 7) {
         face_colours_.add(row_.corners, row_.colour);
-        mesh_.translucent_colours += is_translucent(row_.opacity);
+        mesh_.translucent_colours += row_.is_translucent;
       }
       apply_places();
       (this->*add)(row_.corners);
@@ -395,11 +383,11 @@ class BodyReader {
         row_.has_corners = read_list(property, row_.corners);
       } else if (const Slot slot = slot_of(property); slot >= kRed && slot <= kBlue) {
         const auto part = static_cast<std::size_t>(slot - kRed);
-        row_.colour[part] =
-            static_cast<float>(values_.real(property.type) * scale_of(property.type));
+        const double value = values_.real(property.type);
+        row_.colour[part] = static_cast<float>(is_byte(property.type) ? value / 255 : value);
         row_.colour_parts |= 1u << part;
       } else if (slot == kAlpha) {
-        row_.opacity = values_.real(property.type) * scale_of(property.type);
+        row_.is_translucent = is_translucent_value(property.type, values_.real(property.type));
       } else {
         skip(property);
       }
@@ -482,11 +470,11 @@ class BodyReader {
     bool has_corners = false;
     StatedColour colour{};
     unsigned colour_parts = 0;  // bit k is set if this row has component k of `colour`
-    double opacity = 1;
+    bool is_translucent = false;
 
     void clear() {
       corners.clear(), places.clear();
-      texnumber = 0, has_corners = false, colour_parts = 0, opacity = 1;
+      texnumber = 0, has_corners = false, colour_parts = 0, is_translucent = false;
     }
   };
 
@@ -495,6 +483,7 @@ class BodyReader {
   std::vector<const Picture*> found_;
   PlyTextures textures_;
   FaceColours face_colours_;
+  bool has_wide_faces_ = false;                 // whether colours of faces are wide integers
   ColourMeans means_;                           // mean picture colour per vertex; may be empty
   FaceRow row_;                                 // the row being read
   std::vector<TextureCoordinates> at_corners_;  // texture coordinates of the face; may be empty

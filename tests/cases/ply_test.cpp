@@ -211,20 +211,47 @@ std::vector<Case> comments_without_a_unit() {
   return cases;
 }
 
-std::vector<Case> colours_of_16_bits() {
-  const std::string colours = "property ushort red\nproperty ushort green\nproperty ushort blue\n";
-  const auto file = [&](const std::array<std::string, 4>& vertices) {
-    return PlyRows{.vertex_properties = colours, .vertices = vertices}.file();
+// Returns the declarations of colours whose components have the type `type`.
+std::string colours_as(const std::string& type) {
+  return "property " + type + " red\nproperty " + type + " green\nproperty " + type + " blue\n";
+}
+
+std::vector<Case> colours_of_wide_integers() {
+  const auto file = [&](const std::string& type, const std::array<std::string, 4>& vertices) {
+    return PlyRows{.vertex_properties = colours_as(type), .vertices = vertices}.file();
   };
-  return {{.situation = "up to 255",
-           .file = file({"255 0 0", "0 255 0", "0 0 255", "200 200 0"}),
-           .colours = kFourCases},
-          {.situation = "up to 65535",
-           .file = file({"65535 0 0", "0 65535 0", "0 0 65535", "51400 51400 0"}),
-           .colours = kFourCases},
-          {.situation = "some up to 255",
-           .file = file({"65535 0 0", "0 65535 0", "0 0 65535", "255 0 0"}),
-           .colours = {kRedCase, kGreenCase, kBlueCase, {1, 0, 0}}}};
+  const auto with_faces = [&](const std::string& type, const std::string& colour) {
+    return PlyRows{.face_properties = colours_as(type), .faces = {colour, colour, colour, colour}}
+        .file();
+  };
+  const std::vector<Colour> ochre(4, kOchreCase);
+  const std::array<std::string, 4> up_to_255{"255 0 0", "0 255 0", "0 0 255", "200 200 0"},
+      up_to_65535{"65535 0 0", "0 65535 0", "0 0 65535", "51400 51400 0"};
+  std::vector<Case> cases{
+      {.situation = "some up to 255",
+       .file = file("ushort", {"65535 0 0", "0 65535 0", "0 0 65535", "255 0 0"}),
+       .colours = {kRedCase, kGreenCase, kBlueCase, {1, 0, 0}}},
+      {.situation = "beyond 16 bits",
+       .file = file("uint", {"65536 0 0", "0 65535 0", "0 0 65535", "51400 51400 0"}),
+       .colours = kFourCases,
+       .said = "1 colour value above 1 clipped to 1"},
+      {.situation = "faces up to 255 with full opacity",
+       .file =
+           PlyRows{.face_properties = colours_as("ushort") + "property ushort alpha\n",
+                   .faces = {"200 200 0 255", "200 200 0 255", "200 200 0 255", "200 200 0 255"}}
+               .file(),
+       .colours = std::vector(4, kOchreCase)}};
+  for (const std::string type : {"ushort", "int", "uint", "int64"}) {
+    const auto add = [&](const std::string& situation, const std::string& text,
+                         const std::vector<Colour>& colours) {
+      cases.push_back({.situation = type + situation, .file = text, .colours = colours});
+    };
+    add(" up to 255", file(type, up_to_255), kFourCases);
+    add(" up to 65535", file(type, up_to_65535), kFourCases);
+    add(" of faces up to 255", with_faces(type, "200 200 0"), ochre);
+    add(" of faces up to 65535", with_faces(type, "51400 51400 0"), ochre);
+  }
+  return cases;
 }
 
 std::vector<Case> names_in_capitals() {
@@ -276,11 +303,13 @@ TEST(PlyCases, DecimalCommasAreNamed) {
 }  // namespace
 
 std::vector<testing::FileKind> testing::ply_kinds() {
-  return {
-      {"float255.ply", colours_as_floats()},   {"face_colour.ply", face_colours()},
-      {"int64.ply", integers_of_64_bits()},    {"units_in_world.ply", comments_without_a_unit()},
-      {"ushort255.ply", colours_of_16_bits()}, {"capitals.ply", names_in_capitals()},
-      {"quality.ply", values_at_vertices()}};
+  return {{"float255.ply", colours_as_floats()},
+          {"face_colour.ply", face_colours()},
+          {"int64.ply", integers_of_64_bits()},
+          {"units_in_world.ply", comments_without_a_unit()},
+          {"ushort255.ply", colours_of_wide_integers()},
+          {"capitals.ply", names_in_capitals()},
+          {"quality.ply", values_at_vertices()}};
 }
 
 }  // namespace vitrine
