@@ -99,7 +99,8 @@ class BinaryValues {
   ByteReader bytes_;
 };
 
-constexpr std::uint64_t kMostNamed = 4;  // largest number of unread properties that a message names
+// Largest number of unread properties or elements that a message names.
+constexpr std::uint64_t kMostNamed = 4;
 
 enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kPacked, kAlpha, kNowhere };
 
@@ -220,6 +221,7 @@ class BodyReader {
       auto ok = read_element(element);
       if (!ok) return tl::unexpected(ok.error());
     }
+    report_unread_elements();
     finish_texture();
     if (has_wide_faces_) face_colours_.scale_wide_integers();
     face_colours_.give_to(mesh_);
@@ -257,15 +259,33 @@ class BodyReader {
     if (element.name == "tristrips") {
       return read_faces(element, "vertex_ind", &BodyReader::strip_of);
     }
-    if (element.name == "edge" && element.count > 0)
-      mesh_.repairs.push_back(counted(element.count, "edge") +
-                              " not carried; convert what you need to faces");
+    note_unread(element);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties)
         skip(property);
       if (values_.has_failed()) return cut_short(element, i);
     }
     return {};
+  }
+
+  void note_unread(const PlyElement& element) {
+    if (element.count == 0 || element.name == "camera" || element.name == "range_grid") return;
+    if (element.name == "edge") {
+      mesh_.repairs.push_back(counted(element.count, "edge") +
+                              " not carried; convert what you need to faces");
+      return;
+    }
+    unread_elements_ += element.count;
+    if (unread_names_.size() < kMostNamed) unread_names_.push_back(in_quotes(element.name));
+  }
+
+  void report_unread_elements() {
+    if (unread_elements_ == 0) return;
+    std::string names;
+    for (const std::string& name : unread_names_)
+      names += (names.empty() ? "" : ", ") + name;
+    mesh_.repairs.push_back(counted(unread_elements_, "element") + " of other kinds (" + names +
+                            ") not carried; export what you need as faces and vertex colours");
   }
 
   Expected<void> read_vertices(const PlyElement& element) {
@@ -484,6 +504,8 @@ class BodyReader {
   PlyTextures textures_;
   FaceColours face_colours_;
   bool has_wide_faces_ = false;                 // whether colours of faces are wide integers
+  std::uint64_t unread_elements_ = 0;           // number of elements of unknown kinds
+  std::vector<std::string> unread_names_;       // the first few of their kinds
   ColourMeans means_;                           // mean picture colour per vertex; may be empty
   FaceRow row_;                                 // the row being read
   std::vector<TextureCoordinates> at_corners_;  // texture coordinates of the face; may be empty

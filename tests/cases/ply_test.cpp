@@ -105,13 +105,31 @@ TEST(PlyCases, LostOpacityIsCounted) {
     expect_case(expected);
 }
 
-TEST(PlyCases, EdgesAreCounted) {
+// Returns a text file with further elements: their declarations and their values.
+std::string with_elements(const std::string& declared, const std::string& values) {
   const std::string file = PlyRows{}.file();
-  const std::string header = "element edge 2\nproperty int vertex1\nproperty int vertex2\n";
   const std::size_t end = file.find("end_header");
-  expect_case({.situation = "two edges",
-               .file = file.substr(0, end) + header + file.substr(end) + "0 1\n1 2\n",
-               .said = "2 edges not carried; convert what you need to faces"});
+  return file.substr(0, end) + declared + file.substr(end) + values;
+}
+
+std::vector<Case> other_elements() {
+  const std::string materials = "element material 3\nproperty uchar red\n";
+  return {{.situation = "edges",
+           .file = with_elements("element edge 2\nproperty int vertex1\nproperty int vertex2\n",
+                                 "0 1\n1 2\n"),
+           .said = "2 edges not carried; convert what you need to faces"},
+          {.situation = "materials",
+           .file = with_elements(materials, "1\n2\n3\n"),
+           .said = "3 elements of other kinds ('material') not carried; export what you need as "
+                   "faces and vertex colours"},
+          {.situation = "two kinds",
+           .file = with_elements(materials + "element a 1\nproperty int x\n", "1\n2\n3\n4\n"),
+           .said = "4 elements of other kinds ('material', 'a') not carried"},
+          {.situation = "a scanner's camera and grid, and an empty element",
+           .file = with_elements("element camera 1\nproperty float view_px\n"
+                                 "element range_grid 1\nproperty list uchar int vertex_indices\n"
+                                 "element material 0\nproperty int x\n",
+                                 "0\n1 0\n")}};
 }
 
 TEST(PlyCases, ColoursPackedInOneNumber) {
@@ -309,7 +327,8 @@ std::vector<testing::FileKind> testing::ply_kinds() {
           {"units_in_world.ply", comments_without_a_unit()},
           {"ushort255.ply", colours_of_wide_integers()},
           {"capitals.ply", names_in_capitals()},
-          {"quality.ply", values_at_vertices()}};
+          {"quality.ply", values_at_vertices()},
+          {"elements.ply", other_elements()}};
 }
 
 }  // namespace vitrine
