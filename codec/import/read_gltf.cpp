@@ -439,7 +439,7 @@ class GltfReader {
           std::to_string(*corrected_.begin()) + "; report it to the makers of the exporter");
     if (buffer_.clipped() > 0)
       lines.push_back(counted(buffer_.clipped(), "buffer view") +
-                      " longer than its buffer by at most 3 bytes of padding; report it to the "
+                      " longer than its buffer read as far as the buffer goes; report it to the "
                       "makers of the exporter");
     if (dropped_targets_ > 0)
       lines.push_back(counted(dropped_targets_, "morph target") +

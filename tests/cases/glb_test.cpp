@@ -308,6 +308,18 @@ TEST(GlbCases, PaddingThatIsCountedButNotWritten) {
   EXPECT_THAT(result.repairs, ElementsAre(HasSubstr("1 buffer view longer than its buffer")));
 }
 
+TEST(GlbCases, AViewThatIsLongerThanItsBuffer) {
+  Model model;
+  model.document["bufferViews"][1]["byteLength"] = 99'999;
+  const auto result = read_text(model.file());
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("1 buffer view longer than its buffer read as far as the buffer goes; "
+                          "report it to the makers of the exporter"));
+  model.document["bufferViews"][1]["byteOffset"] = 99'999;
+  EXPECT_THAT(refusal(model.file()), HasSubstr("buffer view 1 lies beyond the end of its buffer"));
+}
+
 std::string u32(std::size_t n) {
   return bytes_of<std::uint32_t>({static_cast<std::uint32_t>(n)});
 }
