@@ -124,6 +124,8 @@ class GltfReader {
       needed = std::max(needed, std::uint64_t{(*indices)->index(i)} + 1);
     const auto range = vertices_of({.json = primitive, .needed = needed}, kAbsent, place);
     if (!range) return tl::unexpected(range.error());
+    const std::uint64_t corners = *indices ? (*indices)->count() : range->count;
+    if (mode == 4 ? corners % 3 != 0 : corners < 3) incomplete_.insert(&primitive);
     return read_faces(*indices, mode, *range);
   }
 
@@ -426,6 +428,10 @@ class GltfReader {
       lines.push_back(counted(without_coordinates_.size(), "primitive") +
                       " without the coordinates of its texture map shows one pixel of the map; "
                       "export it with texture coordinates");
+    if (!incomplete_.empty())
+      lines.push_back(counted(incomplete_.size(), "primitive") +
+                      " with a last face that lacks corners, which is not carried; compare the "
+                      "model with its source");
     append(report_scene(document_));
     report_corrections();
   }
@@ -467,6 +473,7 @@ class GltfReader {
   std::vector<double> weights_;                      // weights of the node's morph targets
   std::set<std::uint64_t> corrected_;                // indices of accessors that were corrected
   std::set<const Json*> without_coordinates_;        // primitives that lack texture coordinates
+  std::set<const Json*> incomplete_;                 // primitives whose last face lacks corners
   std::set<std::uint64_t> wide_colours_;             // accessors of colours from 0 to 255
   ColourFaults colour_faults_;
   std::uint64_t copies_ = 0, dropped_targets_ = 0;

@@ -439,15 +439,33 @@ std::vector<Case> contents_left_out() {
   Model scenes;
   scenes.document["nodes"].push_back({{"mesh", 0}});
   scenes.document["scenes"].push_back({{"nodes", {1}}});
+  Model outside;
+  outside.document["nodes"].push_back({{"mesh", 0}});
+  Model unused;
+  unused.append("meshes", unused.document["meshes"][0]);
+  Model levels;
+  levels.document["nodes"].push_back({{"mesh", 0}});
+  levels.node()["extensions"]["MSFT_lod"]["ids"] = {1};
+  Model incomplete;
+  incomplete.primitive()["indices"] = incomplete.accessor(
+      "SCALAR", 5123, 5,
+      {{"bufferView", incomplete.view(bytes_of<std::uint16_t>({0, 1, 2, 0, 1}))}});
   Model variants;
   variants.document["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}};
   const auto case_of = [](const std::string& situation, const Model& model,
                           const std::string& said) {
     return Case{.situation = situation, .file = model.file(), .faces = 1, .said = said};
   };
-  return {case_of("a hidden node", hidden, "1 hidden node and the nodes below not carried"),
-          case_of("a second scene", scenes, "1 scene besides the default one not carried"),
-          case_of("material variants", variants, "1 material variant not carried")};
+  return {
+      case_of("a hidden node", hidden, "1 hidden node and the nodes below not carried"),
+      case_of("a node outside the scene", outside,
+              "1 use of a mesh outside all scenes not carried; add it to the scene"),
+      case_of("a mesh without a node", unused, "1 use of a mesh outside all scenes not carried"),
+      case_of("a lower level of detail", levels, ""),
+      case_of("five indices of triangles", incomplete,
+              "1 primitive with a last face that lacks corners, which is not carried"),
+      case_of("a second scene", scenes, "1 scene besides the default one not carried"),
+      case_of("material variants", variants, "1 material variant not carried")};
 }
 
 TEST(GlbCases, AModelWhoseNodesAreAllHiddenIsRefused) {
