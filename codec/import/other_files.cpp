@@ -163,6 +163,7 @@ constexpr UnreadKind kTextKinds[] = {
     {"an AMF file", "<amf"sv, kMeshLab},
     {"a BREP file", "cascade topology v"sv, kCad},
     {"a tileset of 3D Tiles", "\"geometricerror\""sv, kTiles},
+    {"a scene of Smithsonian Voyager", "si-dpo-3d"sv, "give the .glb file that it names"sv},
     {"a KML file", "<kml"sv, kDocument},
     {"a CityGML file", "citygml"sv, kBlender},
     {"an SVG picture", "<svg"sv, kPicture},

@@ -499,12 +499,15 @@ bool is_glb(std::span<const std::uint8_t> bytes) {
 }
 
 // A glTF document is a JSON object with the member "asset". A byte order mark may precede it.
-// Tilesets of 3D Tiles have this member too, but no meshes.
+// Tilesets of 3D Tiles have this member too, but no meshes. Scenes of Smithsonian Voyager state
+// their own type in it.
 bool is_gltf(std::span<const std::uint8_t> bytes) {
   const std::string_view text = text_of(bytes);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const auto contains = [&](std::string_view part) { return text.find(part) != text.npos; };
+  constexpr std::size_t kStart = 1024;
   return begin != text.npos && text[begin] == '{' && contains("\"asset\"") &&
+         text.substr(0, kStart).find("si-dpo-3d") == text.npos &&
          (!contains("\"geometricError\"") || contains("\"meshes\""));
 }
 

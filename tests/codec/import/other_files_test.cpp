@@ -74,6 +74,8 @@ TEST(OtherFiles, EachKindIsNamedWithItsNextStep) {
       {"b3dm" + nothing, "a tile of 3D Tiles: ", "GLB"},
       {R"({"asset":{"version":"1.0"},"geometricError":500,"root":{}})",
        "a tileset of 3D Tiles: ", "GLB"},
+      {R"({"asset":{"type":"application/si-dpo-3d.document+json","version":"1.0"},"scene":0})",
+       "a scene of Smithsonian Voyager: ", ".glb"},
       {"xof 0303txt 0032", "a DirectX file: ", "GLB, OBJ or STL"},
       {"AC3Db\nMATERIAL", "an AC3D file: ", "GLB, OBJ or STL"},
       {"Metasequoia Document\n", "a Metasequoia file: ", "GLB, OBJ or STL"},
