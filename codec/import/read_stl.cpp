@@ -387,11 +387,14 @@ std::optional<std::size_t> facets_of_cut_stl(std::span<const std::uint8_t> bytes
   return there;
 }
 
-// Reads the facets that are there if they are triangles beyond doubt. Otherwise the file may be of
-// another format, so it is refused.
+// Whether the bytes are a truncated binary STL file beyond doubt.
+bool is_cut_stl(std::span<const std::uint8_t> bytes) {
+  return facets_of_cut_stl(bytes) && are_mostly_triangles(bytes, 1) &&
+         have_unit_normals(bytes.subspan(kHeaderBytes));
+}
+
 Expected<RawMesh> read_cut(std::span<const std::uint8_t> bytes, std::size_t there) {
-  if (are_mostly_triangles(bytes, 1) && have_unit_normals(bytes.subspan(kHeaderBytes)))
-    return read_binary(bytes, there);
+  if (is_cut_stl(bytes)) return read_binary(bytes, there);
   return bad_input("the STL file is cut short: only " + std::to_string(there) + " of " +
                    std::to_string(stated_facets(bytes)) + " triangles are there; copy it again");
 }
@@ -409,11 +412,15 @@ bool is_text_stl(std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 bool is_binary_stl(std::span<const std::uint8_t> bytes) {
-  return binary_facets(bytes).has_value();
+  return binary_facets(bytes) || is_cut_stl(bytes);
 }
 
 bool is_stl(std::span<const std::uint8_t> bytes) {
-  return is_binary_stl(bytes) || facets_of_cut_stl(bytes) || is_text_stl(bytes);
+  return is_binary_stl(bytes) || is_text_stl(bytes);
+}
+
+bool may_be_cut_stl(std::span<const std::uint8_t> bytes) {
+  return facets_of_cut_stl(bytes).has_value();
 }
 
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes, const ReadOptions&) {
