@@ -516,7 +516,9 @@ class BodyReader {
 
 bool is_ply(std::span<const std::uint8_t> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return text.starts_with("ply\n") || text.starts_with("ply\r");
+  const std::size_t end = text.find_first_not_of(" \t", 3);
+  return lower_case(text.substr(0, 3)) == "ply" && end != text.npos &&
+         (text[end] == '\r' || text[end] == '\n');
 }
 
 Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const ReadOptions& options) {

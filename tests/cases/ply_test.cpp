@@ -213,6 +213,11 @@ std::vector<Case> integers_of_64_bits() {
   return {
       {.situation = "int64", .file = PlyRows{.index = "int64"}.file(), .triangles = faces},
       {.situation = "uint64", .file = PlyRows{.index = "uint64"}.file(), .triangles = faces},
+      {.situation = "long", .file = PlyRows{.index = "long"}.file(), .triangles = faces},
+      {.situation = "ulong", .file = PlyRows{.index = "ulong"}.file(), .triangles = faces},
+      {.situation = "binary long",
+       .file = with_wide_indices("long", false),
+       .refused = "PLY header, line 8: the type 'long' has no fixed size; export the file as text"},
       {.situation = "binary int64", .file = with_wide_indices("int64", false), .triangles = faces},
       {.situation = "binary uint64, big endian",
        .file = with_wide_indices("uint64", true),
@@ -285,6 +290,13 @@ std::vector<Case> names_in_capitals() {
     cases.push_back({.situation = names, .file = rows.file(), .colours = kFourCases});
   }
   return cases;
+}
+
+TEST(PlyCases, TheFirstLineMayHaveCapitalsAndBlanks) {
+  const std::string rest = PlyRows{.comment = "comment unit mm\n"}.file().substr(3);
+  for (const std::string first : {"PLY", "Ply", "ply ", "ply\t ", "ply \r"})
+    expect_case({.situation = first, .file = first + rest, .unit = "mm"});
+  EXPECT_THAT(refusal("plywood" + rest), HasSubstr("not a mesh file"));
 }
 
 std::vector<Case> values_at_vertices() {
