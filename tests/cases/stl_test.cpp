@@ -167,6 +167,20 @@ struct Spelling {
   }
 };
 
+std::string with_fortran_numbers(std::string file) {
+  for (std::size_t at = 0; (at = file.find("vertex 1 0", at)) != file.npos;)
+    file.replace(at, 10, "vertex 1.0D+00 0.0d0");
+  return file;
+}
+
+TEST(StlCases, AnExponentOfFortranCounts) {
+  std::string file = Spelling{}.file();
+  for (std::size_t at = 0; (at = file.find("vertex 1 0", at)) != file.npos;)
+    file.replace(at, 10, "vertex 2.5D+01 -0.5d-1");
+  EXPECT_EQ(read_text(file).mesh.positions,
+            (std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}, {25, -0.05, 0}, {0, 0, 1}}));
+}
+
 std::vector<Case> spellings() {
   return {{.situation = "end loop", .file = Spelling{.loop_end = "end loop"}.file()},
           {.situation = "END FACET", .file = Spelling{.facet_end = "END FACET"}.file()},
@@ -176,6 +190,7 @@ std::vector<Case> spellings() {
            .file = Spelling{.solid_end = "endsolidNAME"}.file()},
           {.situation = "name after solid without a blank",
            .file = Spelling{.solid = "solidNAME"}.file()},
+          {.situation = "exponents of Fortran", .file = with_fortran_numbers(Spelling{}.file())},
           {.situation = "sOLID", .file = Spelling{.solid = "sOLID"}.file()},
           {.situation = "colour after endfacet",
            .file = Spelling{.facet_end = "endfacet 1.0 0.0 0.0"}.file(),
