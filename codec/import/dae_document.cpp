@@ -71,14 +71,6 @@ Expected<void> DaeWork::check() const {
   return {};
 }
 
-std::optional<double> parse_real(std::string_view word) {
-  const std::size_t comma = word.find(',');
-  if (comma == word.npos) return parse_number<double>(word);
-  std::string with_point(word);
-  with_point[comma] = '.';
-  return parse_number<double>(with_point);
-}
-
 bool DaeNumbers::is_done() {
   left_.remove_prefix(std::min(left_.find_first_not_of(kXmlBlanks), left_.size()));
   return left_.empty();

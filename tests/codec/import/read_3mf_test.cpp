@@ -197,6 +197,14 @@ TEST(Read3mf, TheModelPartMayHaveAnyNameIfItIsTheOnlyOne) {
               HasSubstr("Word, Excel or PowerPoint"));
 }
 
+TEST(Read3mf, DecimalCommasAreRead) {
+  std::string mesh = kTriangle;
+  mesh.replace(mesh.find("z=\"2\""), 5, "z=\"2,5\"");
+  const ImportedMesh read = read_text(package(part(
+      object("1", mesh), R"(<item objectid="1" transform="1,0 0,0 0 0 1 0 0 0 1 0,5 0 0"/>)")));
+  EXPECT_EQ(read.mesh.positions, (std::vector<Vec3>{{0.5, 0, 0}, {1.5, 0, 0}, {0.5, 2.5, 0}}));
+}
+
 TEST(Read3mf, FaultsAreNamed) {
   const auto fault = [](const std::string& resources) {
     return refusal(package(part(resources, kItem)));
