@@ -15,6 +15,7 @@
 #include "codec/import/readers.h"
 #include "codec/import/stated_colours.h"
 #include "codec/import/text_cursor.h"
+#include "codec/import/xml_names.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -49,11 +50,6 @@ const ThreeMfUnit& unit_in(std::span<const std::uint8_t> bytes) {
   const std::string_view name = text.substr(0, text.find_first_of("\"'"));
   const auto* found = std::ranges::find(kThreeMfUnits, name, &ThreeMfUnit::name);
   return found == std::end(kThreeMfUnits) ? kThreeMfUnits[0] : *found;
-}
-
-// Returns a name without the prefix of its XML namespace.
-std::string_view local_name(std::string_view name) {
-  return name.substr(name.find(':') + 1);
 }
 
 // Returns the value of an attribute with any namespace prefix, or an empty text if the attribute is
