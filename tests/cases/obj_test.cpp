@@ -368,13 +368,26 @@ std::vector<Case> ambient_maps() {
 }
 
 std::vector<Case> names_with_more() {
-  return {map_case("map_Kd t.png # comment"),
-          map_case("map_Kd -s 1 1 1 t.png\t #"),
-          {.situation = "a library in quotation marks",
-           .file = dressed("mtllib \"my a.mtl\""),
-           .colours = kAllRed,
-           .said = "colours of 1 material baked",
-           .beside = {{"my a.mtl", "newmtl m\nKd 1 0 0\n"}}}};
+  std::string commented = dressed("mtllib m.mtl");
+  commented.insert(commented.find('\n', commented.find("usemtl")), " # comment");
+  return {
+      map_case("map_Kd t.png # comment"),
+      map_case("map_Kd -s 1 1 1 t.png\t #"),
+      {.situation = "a library in quotation marks",
+       .file = dressed("mtllib \"my a.mtl\""),
+       .colours = kAllRed,
+       .said = "colours of 1 material baked",
+       .beside = {{"my a.mtl", "newmtl m\nKd 1 0 0\n"}}},
+      {.situation = "a picture's name as in a URI",
+       .file = dressed("mtllib m.mtl"),
+       .colours = kAllRed,
+       .said = "1 texture map baked",
+       .beside = {{"m.mtl", "newmtl m\nmap_Kd b%20c.png\n"}, {"b c.png", png_of({255, 0, 0}, 1)}}},
+      {.situation = "a comment behind usemtl",
+       .file = commented,
+       .colours = kAllRed,
+       .said = "colours of 1 material baked",
+       .beside = {{"m.mtl", "newmtl m\nKd 1 0 0\n"}}}};
 }
 
 std::vector<Case> missing_colours() {
