@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -19,15 +18,6 @@ std::optional<Number> parse_number(std::string_view text) noexcept {
   const auto [at, fault] = std::from_chars(text.data(), end, value);
   if (fault != std::errc{} || at != end) return std::nullopt;
   return value;
-}
-
-// Parses all of `text` as a real number with a decimal point or comma. Some exporters write commas.
-inline std::optional<double> parse_real(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  if (comma == text.npos) return parse_number<double>(text);
-  std::string with_point(text);
-  with_point[comma] = '.';
-  return parse_number<double>(with_point);
 }
 
 }  // namespace vitrine::inline codec

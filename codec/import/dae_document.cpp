@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "codec/core/parse_number.h"
+#include "codec/import/text_cursor.h"
 #include "codec/import/xml_names.h"
 #include "codec/repair/raw_mesh.h"
 

@@ -15,6 +15,7 @@
 #include "codec/import/dae_materials.h"
 #include "codec/import/readers.h"
 #include "codec/import/scene_mesh.h"
+#include "codec/import/text_cursor.h"
 #include "codec/import/xml_names.h"
 #include "codec/mesh/unit.h"
 

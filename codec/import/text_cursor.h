@@ -7,10 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+
+#include "codec/core/parse_number.h"
 
 namespace vitrine::inline codec {
 
@@ -178,6 +181,15 @@ inline std::string lower_case(std::string_view text) {
 
 inline constexpr std::string_view kDecimalCommas =
     "numbers have decimal commas; write them with points";
+
+// Parses all of `text` as a real number with a decimal point or comma. Some exporters write commas.
+inline std::optional<double> parse_real(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos) return parse_number<double>(text);
+  std::string with_point(text);
+  with_point[comma] = '.';
+  return parse_number<double>(with_point);
+}
 
 inline std::string_view first_word(std::span<const std::uint8_t> bytes) {
   TextCursor text(bytes);
