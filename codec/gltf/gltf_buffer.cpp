@@ -10,9 +10,6 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint64_t kMostExpansionInAll = 1024;
-// Some exporters count up to this number of padding bytes at the end of a buffer without writing
-// them.
-constexpr std::uint64_t kMostPadding = 3;
 
 std::string named(std::uint64_t index, const std::string& what) {
   return "glTF buffer view " + std::to_string(index) + ' ' + what +
@@ -44,9 +41,9 @@ Expected<std::span<const std::uint8_t>> GltfBuffer::part(const Json& place, std:
   const auto bytes = has_uri ? buffer(number) : Expected<std::span<const std::uint8_t>>(binary_);
   if (!bytes) return tl::unexpected(bytes.error());
   const std::uint64_t begin = whole(place, "byteOffset", 0), size = whole(place, "byteLength", 0);
-  if (begin > bytes->size() || size > bytes->size() - begin + kMostPadding) {
-    return bad_view(index, "lies beyond the end of its buffer");
-  }
+  if (begin > bytes->size()) return bad_view(index, "lies beyond the end of its buffer");
+  // Some exporters state views that are longer than the buffer, such as with padding that they do
+  // not write. The readers of the view check that it holds all their data.
   const std::uint64_t present = std::min<std::uint64_t>(size, bytes->size() - begin);
   if (present < size) clipped_.insert(index);
   return bytes->subspan(begin, present);

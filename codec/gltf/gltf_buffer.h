@@ -26,15 +26,15 @@ class GltfBuffer {
   GltfBuffer(const Json& document, std::span<const std::uint8_t> binary, GltfResources& resources)
       : document_(document), binary_(binary), resources_(resources) {}
 
-  // Returns the buffer view number `index`. Fails if the view extends beyond its buffer by more
-  // than 3 bytes. The bytes are valid as long as this object.
+  // Returns the buffer view number `index`. If the view extends beyond its buffer, returns the part
+  // that is inside. Fails if it begins beyond. The bytes are valid as long as this object.
   Expected<BufferView> view(std::uint64_t index);
 
   // Adds `bytes` to the total size of decompressed data. Fails (kLimit) if this total exceeds 1024
   // times the size of the file and its companions.
   Expected<void> spend(std::uint64_t bytes);
 
-  // Returns the number of views that extended beyond their buffer because padding was missing.
+  // Returns the number of views that extended beyond their buffer.
   std::uint64_t clipped() const { return clipped_.size(); }
 
   // Returns the total size in bytes of the file, its companions and the decompressed data.

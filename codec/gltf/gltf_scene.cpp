@@ -99,6 +99,41 @@ Unexpected shows_none(std::uint64_t scene, const Json& document) {
                    " does; make that the default and export again");
 }
 
+// Returns for each node whether it belongs to a scene, also as one of the lower levels of detail of
+// MSFT_lod.
+std::vector<bool> nodes_in_scenes(const Json& document) {
+  const Json& nodes = member(document, "nodes");
+  std::vector<bool> seen(nodes.is_array() ? nodes.size() : 0, false);
+  std::vector<Visit> open;
+  for (const Json& scene : member(document, "scenes"))
+    push(member(scene, "nodes"), Affine{}, open);
+  while (!open.empty()) {
+    const std::uint64_t node = open.back().node;
+    open.pop_back();
+    if (node >= seen.size() || seen[node]) continue;
+    seen[node] = true;
+    push(member(nodes[node], "children"), Affine{}, open);
+    push(member(extension(nodes[node], "MSFT_lod"), "ids"), Affine{}, open);
+  }
+  return seen;
+}
+
+// Counts the meshes of nodes outside all scenes, and the meshes that no node has.
+std::uint64_t meshes_outside_scenes(const Json& document) {
+  if (!element(document, "scenes", whole(document, "scene", 0)).is_object()) return 0;
+  const Json& nodes = member(document, "nodes");
+  const std::vector<bool> in_scene = nodes_in_scenes(document);
+  std::vector<bool> has_node(member(document, "meshes").size(), false);
+  std::uint64_t outside = 0;
+  for (std::size_t n = 0; n < in_scene.size(); ++n) {
+    const std::uint64_t mesh = whole(nodes[n], "mesh", kAbsent);
+    if (mesh >= has_node.size()) continue;
+    has_node[mesh] = true;
+    outside += !in_scene[n];
+  }
+  return outside + static_cast<std::uint64_t>(std::ranges::count(has_node, false));
+}
+
 }  // namespace
 
 Expected<GltfScene> read_scene(const Json& document) {
@@ -143,6 +178,10 @@ std::vector<std::string> report_scene(const Json& document) {
   if (scenes > 1)
     lines.push_back(counted(scenes - 1, "scene") +
                     " besides the default one not carried; export each scene as its own file");
+  if (const std::uint64_t outside = meshes_outside_scenes(document); outside > 0)
+    lines.push_back(counted(outside, "use") +
+                    " of a mesh outside all scenes not carried; add it to the scene and export "
+                    "again");
   const std::size_t variants =
       member(extension(document, "KHR_materials_variants"), "variants").size();
   if (variants > 0)

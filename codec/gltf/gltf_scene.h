@@ -31,8 +31,9 @@ struct GltfScene {
 // transform. Also fails if the document has meshes but the scene shows none of them.
 Expected<GltfScene> read_scene(const Json& document);
 
-// Returns one line for each kind of content that read_scene() leaves out: hidden nodes and other
-// scenes. Adds one about material variants, because only the default materials are read.
+// Returns one line for each kind of content that read_scene() leaves out: hidden nodes, other
+// scenes, and meshes outside all scenes. Adds one about material variants, because only the default
+// materials are read.
 std::vector<std::string> report_scene(const Json& document);
 
 }  // namespace vitrine::inline codec

@@ -6,6 +6,8 @@
 #include <type_traits>
 
 #include "codec/core/parse_number.h"
+#include "codec/import/text_cursor.h"
+#include "codec/import/xml_names.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {
@@ -21,6 +23,14 @@ DaeNode next_in(const DaeNode& top, DaeNode node) {
   return node == top ? DaeNode() : node.next_sibling();
 }
 
+// Removes the prefix of the root element's namespace from the names of all elements. Few programs
+// write one.
+void drop_prefixes(const DaeNode& root) {
+  if (std::string_view(root.name()).find(':') == std::string_view::npos) return;
+  for (DaeNode node = root; node; node = next_in(root, node))
+    node.set_name(std::string(local_name(node.name())).c_str());
+}
+
 }  // namespace
 
 Expected<DaeDocument> DaeDocument::parse(std::span<const std::uint8_t> bytes) {
@@ -28,8 +38,10 @@ Expected<DaeDocument> DaeDocument::parse(std::span<const std::uint8_t> bytes) {
   constexpr unsigned kOptions =
       pugi::parse_minimal | pugi::parse_escapes | pugi::parse_cdata | pugi::parse_trim_pcdata;
   const auto parsed = document.xml_.load_buffer(bytes.data(), bytes.size(), kOptions);
-  document.root_ = document.xml_.child("COLLADA");
-  if (!parsed || !document.root_) return bad_dae("the XML is damaged");
+  document.root_ = document.xml_.document_element();
+  if (!parsed || local_name(document.root_.name()) != "COLLADA")
+    return bad_dae("the XML is damaged");
+  drop_prefixes(document.root_);
   document.index();
   return document;
 }
@@ -69,14 +81,6 @@ Expected<void> DaeWork::check() const {
                 "the DAE refers to its elements too often to be read; export the mesh without "
                 "instances");
   return {};
-}
-
-std::optional<double> parse_real(std::string_view word) {
-  const std::size_t comma = word.find(',');
-  if (comma == word.npos) return parse_number<double>(word);
-  std::string with_point(word);
-  with_point[comma] = '.';
-  return parse_number<double>(with_point);
 }
 
 bool DaeNumbers::is_done() {

@@ -57,9 +57,6 @@ class DaeWork {
   std::uint64_t most_, done_ = 0;
 };
 
-// Parses a real number. Some exporters write a decimal comma.
-std::optional<double> parse_real(std::string_view word);
-
 // Reads numbers separated by blanks.
 class DaeNumbers {
  public:

@@ -37,6 +37,9 @@ NamedPictures::Source NamedPictures::source_of(const StatedPath& path) const {
   if (const std::size_t comment = path.path.find(" #"); !found && comment != path.path.npos)
     found = find_companion(companions_,
                            {without_end_blanks(path.path.substr(0, comment)), path.folder});
+  // Other programs write the name as in a URI.
+  if (!found && path.path.find('%') != path.path.npos)
+    found = find_companion(companions_, {percent_decoded(path.path), path.folder});
   if (found) return {(*found)->first, (*found)->second};
   // no companion has this key, because keys do not end with a slash
   return {companion_key(path.path) + '/', tl::unexpected(found.error())};

@@ -47,6 +47,9 @@ void ObjMaterials::define(std::string name, ObjMaterial material) {
 std::uint16_t ObjMaterials::use(std::string_view name) {
   name = without_end_blanks(name);
   current_ = find(name);
+  // Some programs write a comment after the name. A name itself may contain " #".
+  if (const std::size_t comment = name.find(" #"); current_ == nullptr && comment != name.npos)
+    current_ = find(without_end_blanks(name.substr(0, comment)));
   if (current_ != nullptr) return current_->index;
   if (has_library_ && !name.empty() && !unknown_.contains(name)) unknown_.emplace(name);
   return plain();

@@ -149,6 +149,16 @@ std::vector<std::string> paths_of(const std::vector<PackedFile>& files) {
   return paths;
 }
 
+// Returns the only file that is the model part of a 3MF package, whatever its name: some programs
+// do not call it 3D/3dmodel.model. Returns nullopt if there is none or several.
+std::optional<std::size_t> only_3mf_part(const std::vector<PackedFile>& files) {
+  const auto is_part = [](const PackedFile& file) { return is_3mf(file.bytes); };
+  const auto found = std::ranges::find_if(files, is_part);
+  if (found == files.end() || std::find_if(found + 1, files.end(), is_part) != files.end())
+    return std::nullopt;
+  return static_cast<std::size_t>(found - files.begin());
+}
+
 // Returns the error for a package without a model. If the package itself is of a known, unsupported
 // kind, the error names that kind. Otherwise, the error names the first file that is a model in an
 // unsupported format. If there is no such file, the error states the number of files.
@@ -222,9 +232,14 @@ Expected<PackagedModel> PackagedModel::open(std::span<const std::uint8_t> packag
   if (is_one_file) return model;
   const auto chosen = choose_model(paths_of(model.files_), "package");
   if (!chosen) return tl::unexpected(chosen.error());
-  if (!*chosen) return no_model(package, model.files_);
-  model.model_ = (*chosen)->file;
-  model.note_ = (*chosen)->note;
+  if (*chosen) {
+    model.model_ = (*chosen)->file;
+    model.note_ = (*chosen)->note;
+  } else if (const auto part = only_3mf_part(model.files_)) {
+    model.model_ = *part;
+  } else {
+    return no_model(package, model.files_);
+  }
   return model.with_named_files(package);
 }
 

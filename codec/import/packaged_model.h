@@ -35,8 +35,9 @@ Expected<std::optional<ChosenModel>> choose_model(std::span<const std::string> p
 
 class PackagedModel {
  public:
-  // Unpacks a package and chooses its model by choose_model(). Fails (kBadInput) if the package has
-  // no model. Also fails with the errors of choose_model() and unpack().
+  // Unpacks a package and chooses its model by choose_model(). If that finds no model, takes the
+  // only model part of a 3MF package. Fails (kBadInput) if the package has no model. Also fails
+  // with the errors of choose_model() and unpack().
   static Expected<PackagedModel> open(std::span<const std::uint8_t> package);
 
   // Path in the package; empty for a gzip file.

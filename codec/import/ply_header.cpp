@@ -65,6 +65,7 @@ class HeaderParser {
   Expected<void> format(std::string_view line);
   Expected<void> element(std::string_view line);
   Expected<void> property(std::string_view line);
+  Expected<PlyType> type(std::string_view name) const;
   void comment(std::string_view line);
 
   Unexpected bad(std::string what) const {
@@ -117,22 +118,32 @@ Expected<void> HeaderParser::element(std::string_view line) {
   return {};
 }
 
+// Some programs write the types long and ulong of C, which have no fixed size. In text, the size
+// does not matter.
+Expected<PlyType> HeaderParser::type(std::string_view name) const {
+  if (const auto known = type_of(name)) return *known;
+  if (name != "long" && name != "ulong") return bad("unknown type " + in_quotes(name));
+  if (header_.format == PlyFormat::kAscii)
+    return name == "long" ? PlyType::kInt64 : PlyType::kUint64;
+  return bad_input("PLY header, line " + std::to_string(line_number_) + ": the type " +
+                   in_quotes(name) + " has no fixed size; export the file as text");
+}
+
 Expected<void> HeaderParser::property(std::string_view line) {
   if (header_.elements.empty()) return bad("a property before the first element");
   if (++property_count_ > kMostProperties) return bad("more than 1024 properties");
   PlyProperty property{};
-  std::string_view type = take_word(line);
-  if (type == "list") {
-    const std::string_view count_type = take_word(line);
-    const auto known = type_of(count_type);
-    if (!known) return bad("unknown type " + in_quotes(count_type));
+  std::string_view word = take_word(line);
+  if (word == "list") {
+    const auto of_count = type(take_word(line));
+    if (!of_count) return tl::unexpected(of_count.error());
     property.is_list = true;
-    property.count_type = *known;
-    type = take_word(line);
+    property.count_type = *of_count;
+    word = take_word(line);
   }
-  const auto known = type_of(type);
-  if (!known) return bad("unknown type " + in_quotes(type));
-  property.type = *known;
+  const auto of_values = type(word);
+  if (!of_values) return tl::unexpected(of_values.error());
+  property.type = *of_values;
   property.name = lower_case(take_word(line));
   header_.elements.back().properties.push_back(std::move(property));
   return {};
@@ -155,7 +166,8 @@ Expected<void> HeaderParser::statement(std::string_view line) {
 }
 
 Expected<PlyHeader> HeaderParser::parse() {
-  if (text_.starts_with("ply\r") && !text_.starts_with("ply\r\n")) line_end_ = "\r";
+  const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
+  if (text_.substr(end).starts_with('\r') && text_.substr(end, 2) != "\r\n") line_end_ = "\r";
   std::string_view line;
   take_line(line);
   while (take_line(line)) {

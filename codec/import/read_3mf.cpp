@@ -15,6 +15,7 @@
 #include "codec/import/readers.h"
 #include "codec/import/stated_colours.h"
 #include "codec/import/text_cursor.h"
+#include "codec/import/xml_names.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -51,11 +52,6 @@ const ThreeMfUnit& unit_in(std::span<const std::uint8_t> bytes) {
   return found == std::end(kThreeMfUnits) ? kThreeMfUnits[0] : *found;
 }
 
-// Returns a name without the prefix of its XML namespace.
-std::string_view local_name(std::string_view name) {
-  return name.substr(name.find(':') + 1);
-}
-
 // Returns the value of an attribute with any namespace prefix, or an empty text if the attribute is
 // missing.
 std::string_view value_of(const Node& node, std::string_view name) {
@@ -78,7 +74,10 @@ std::optional<Affine> affine_of(const Node& node) {
   TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   std::array<double, 12> m{};
   for (double& number : m) {
-    if (!cursor.read_number(number)) return std::nullopt;
+    if (cursor.read_number(number)) continue;
+    const auto with_comma = parse_real(cursor.word());
+    if (!with_comma) return std::nullopt;
+    number = *with_comma;
   }
   return Affine{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}, {m[9], m[10], m[11]}};
 }
@@ -269,8 +268,8 @@ class ThreeMfReader {
   Expected<void> add_vertices(const Node& vertices, const Affine& place_of_object) {
     for (const Node& vertex : vertices.children("vertex")) {
       if (mesh_.positions.size() >= room_) return too_many();
-      const auto x = number_in<double>(vertex, "x"), y = number_in<double>(vertex, "y"),
-                 z = number_in<double>(vertex, "z");
+      const auto x = parse_real(value_of(vertex, "x")), y = parse_real(value_of(vertex, "y")),
+                 z = parse_real(value_of(vertex, "z"));
       if (!x || !y || !z)
         return bad_input("vertex " + std::to_string(mesh_.positions.size()) +
                          " of the 3MF lacks a coordinate; export the file again");

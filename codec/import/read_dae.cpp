@@ -15,6 +15,8 @@
 #include "codec/import/dae_materials.h"
 #include "codec/import/readers.h"
 #include "codec/import/scene_mesh.h"
+#include "codec/import/text_cursor.h"
+#include "codec/import/xml_names.h"
 #include "codec/mesh/unit.h"
 
 namespace vitrine::inline codec {
@@ -32,9 +34,9 @@ std::string_view start_of_dae(std::span<const std::uint8_t> bytes, std::size_t m
 // Returns the length in metres of the unit that the element "unit" states. COLLADA prescribes
 // metres if a file states no unit.
 double metres_in(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kUnit = "<unit ", kMeter = "meter=";
+  constexpr std::string_view kUnit = "<unit ", kPrefixedUnit = ":unit ", kMeter = "meter=";
   std::string_view text = start_of_dae(bytes, kDaeUnit);
-  text.remove_prefix(std::min(text.find(kUnit), text.size()));
+  text.remove_prefix(std::min({text.find(kUnit), text.find(kPrefixedUnit), text.size()}));
   text = text.substr(0, text.find('>'));
   const std::size_t meter = text.find(kMeter);
   if (meter == text.npos) return 1;
@@ -451,10 +453,7 @@ class DaeReader {
 }  // namespace
 
 bool is_dae(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kRootElement = 4'096;  // the root element begins within this many bytes
-  const std::string_view start = start_of_dae(bytes, kRootElement);
-  const std::size_t first = start.find_first_not_of(" \t\r\n");
-  return first != start.npos && start[first] == '<' && start.find("<COLLADA") != start.npos;
+  return local_name(root_name(start_of_dae(bytes, bytes.size()))) == "COLLADA";
 }
 
 std::string_view unit_of_dae(std::span<const std::uint8_t> bytes) {

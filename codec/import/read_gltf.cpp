@@ -124,6 +124,8 @@ class GltfReader {
       needed = std::max(needed, std::uint64_t{(*indices)->index(i)} + 1);
     const auto range = vertices_of({.json = primitive, .needed = needed}, kAbsent, place);
     if (!range) return tl::unexpected(range.error());
+    const std::uint64_t corners = *indices ? (*indices)->count() : range->count;
+    if (mode == 4 ? corners % 3 != 0 : corners < 3) incomplete_.insert(&primitive);
     return read_faces(*indices, mode, *range);
   }
 
@@ -426,6 +428,10 @@ class GltfReader {
       lines.push_back(counted(without_coordinates_.size(), "primitive") +
                       " without the coordinates of its texture map shows one pixel of the map; "
                       "export it with texture coordinates");
+    if (!incomplete_.empty())
+      lines.push_back(counted(incomplete_.size(), "primitive") +
+                      " with a last face that lacks corners, which is not carried; compare the "
+                      "model with its source");
     append(report_scene(document_));
     report_corrections();
   }
@@ -439,7 +445,7 @@ class GltfReader {
           std::to_string(*corrected_.begin()) + "; report it to the makers of the exporter");
     if (buffer_.clipped() > 0)
       lines.push_back(counted(buffer_.clipped(), "buffer view") +
-                      " longer than its buffer by at most 3 bytes of padding; report it to the "
+                      " longer than its buffer read as far as the buffer goes; report it to the "
                       "makers of the exporter");
     if (dropped_targets_ > 0)
       lines.push_back(counted(dropped_targets_, "morph target") +
@@ -467,6 +473,7 @@ class GltfReader {
   std::vector<double> weights_;                      // weights of the node's morph targets
   std::set<std::uint64_t> corrected_;                // indices of accessors that were corrected
   std::set<const Json*> without_coordinates_;        // primitives that lack texture coordinates
+  std::set<const Json*> incomplete_;                 // primitives whose last face lacks corners
   std::set<std::uint64_t> wide_colours_;             // accessors of colours from 0 to 255
   ColourFaults colour_faults_;
   std::uint64_t copies_ = 0, dropped_targets_ = 0;
@@ -492,12 +499,15 @@ bool is_glb(std::span<const std::uint8_t> bytes) {
 }
 
 // A glTF document is a JSON object with the member "asset". A byte order mark may precede it.
-// Tilesets of 3D Tiles have this member too, but no meshes.
+// Tilesets of 3D Tiles have this member too, but no meshes. Scenes of Smithsonian Voyager state
+// their own type in it.
 bool is_gltf(std::span<const std::uint8_t> bytes) {
   const std::string_view text = text_of(bytes);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const auto contains = [&](std::string_view part) { return text.find(part) != text.npos; };
+  constexpr std::size_t kStart = 1024;
   return begin != text.npos && text[begin] == '{' && contains("\"asset\"") &&
+         text.substr(0, kStart).find("si-dpo-3d") == text.npos &&
          (!contains("\"geometricError\"") || contains("\"meshes\""));
 }
 

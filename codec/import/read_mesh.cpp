@@ -24,6 +24,7 @@ Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const ReadOption
   if (format == nullptr) {
     if (auto other = describe_other_file(bytes, options.name))
       return bad_input(std::move(other->text));
+    if (may_be_cut_stl(bytes)) return read_stl(bytes, options);
     return bad_input("not a mesh file that Vitrine reads; convert it to " +
                      std::string(kImportFormatNames));
   }

@@ -25,16 +25,8 @@ class ObjReader {
 
   Expected<RawMesh> read() {
     while (seek_statement()) {
-      const std::string_view keyword = text_.word();
-      bool ok = true;
-      if (keyword == "v") ok = read_vertex();
-      if (keyword == "f") ok = read_face();
-      if (keyword == "vt") texture_coordinates();
-      if (keyword == "vn") mesh_.has_seams = true;
-      count_other_element(keyword);
-      if (keyword == "mtllib") open_libraries(text_.rest_of_line());
-      if (keyword == "usemtl") use_material(text_.rest_of_line());
-      if (!ok) return bad_line(keyword);
+      const std::string keyword = lower_case(text_.word().substr(0, 32));
+      if (!take(keyword)) return bad_line(keyword);
       text_.next_line();
     }
     finish_materials();
@@ -51,6 +43,23 @@ class ObjReader {
       colours_.read_comment(text_.rest_of_line());
       text_.next_line();
     }
+    return true;
+  }
+
+  // Reads the statement after its keyword. Returns false if the statement is faulty.
+  bool take(const std::string& keyword) {
+    if (keyword == "v") return read_vertex();
+    if (keyword == "f" || keyword == "fo") return read_face();
+    if (keyword == "vt")
+      texture_coordinates();
+    else if (keyword == "vn")
+      mesh_.has_seams = true;
+    else if (keyword == "mtllib")
+      open_libraries(text_.rest_of_line());
+    else if (keyword == "usemtl")
+      use_material(text_.rest_of_line());
+    else
+      count_other_statement(keyword);
     return true;
   }
 
@@ -73,24 +82,47 @@ class ObjReader {
     mesh_.has_seams = true;
   }
 
-  // Counts the statements for elements that are not polygons: points, lines, curves and surfaces.
-  void count_other_element(std::string_view keyword) {
-    constexpr std::array<std::string_view, 5> kOthers{"p", "l", "curv", "curv2", "surf"};
-    const auto* found = std::ranges::find(kOthers, keyword);
-    if (found != kOthers.end()) ++other_elements_[*found];
+  // Counts the statements for elements that are not polygons (points, lines, curves and surfaces)
+  // and the statements that are unknown. The other statements group or smooth faces, or belong to a
+  // curve or surface.
+  void count_other_statement(const std::string& keyword) {
+    constexpr std::array<std::string_view, 5> kElements{"p", "l", "curv", "curv2", "surf"};
+    constexpr std::array<std::string_view, 25> kWithoutFaces{
+        "g",      "s",        "o",     "mg",    "vp",   "bevel",      "c_interp", "lod",  "deg",
+        "cstype", "d_interp", "bmat",  "step",  "parm", "trim",       "hole",     "scrv", "sp",
+        "end",    "con",      "ctech", "stech", "res",  "shadow_obj", "trace_obj"};
+    if (std::ranges::find(kElements, keyword) != kElements.end())
+      ++other_elements_[keyword];
+    else if (std::ranges::find(kWithoutFaces, keyword) == kWithoutFaces.end())
+      count_unknown(keyword);
   }
 
-  void report_other_elements() {
+  void count_unknown(const std::string& keyword) {
+    constexpr std::size_t kMostNamed = 4;
+    ++unknown_;
+    if (unknown_names_.size() < kMostNamed) unknown_names_.insert(in_quotes(keyword));
+  }
+
+  void report_other_statements() {
     std::uint64_t count = 0;
     std::string statements;
     for (const auto& [keyword, uses] : other_elements_) {
       count += uses;
-      statements +=
-          (statements.empty() ? "" : ", ") + counted(uses, std::string(keyword) + " statement");
+      add_to_list(statements, counted(uses, keyword + " statement"));
     }
-    if (count == 0) return;
-    mesh_.repairs.push_back(counted(count, "element") + " without faces (" + statements +
-                            ") not carried; convert what you need to polygons");
+    if (count > 0)
+      mesh_.repairs.push_back(counted(count, "element") + " without faces (" + statements +
+                              ") not carried; convert what you need to polygons");
+    std::string names;
+    for (const std::string& name : unknown_names_)
+      add_to_list(names, name);
+    if (unknown_ > 0)
+      mesh_.repairs.push_back(counted(unknown_, "unknown statement") + " not carried (" + names +
+                              "); if they hold faces or colours, export the model as PLY or GLB");
+  }
+
+  static void add_to_list(std::string& list, const std::string& item) {
+    list += (list.empty() ? "" : ", ") + item;
   }
 
   // Opens the libraries named in a statement. Blanks separate the names, but a name may also
@@ -192,7 +224,7 @@ class ObjReader {
     }
     for (const auto& [name, fault] : missing_libraries_)
       lines.push_back("1 material library " + in_quotes(name) + " not carried: it " + fault);
-    report_other_elements();
+    report_other_statements();
     report_materials_before_library();
     const auto unread = materials_.report_unread();
     lines.insert(lines.end(), unread.begin(), unread.end());
@@ -230,10 +262,12 @@ class ObjReader {
   std::vector<std::uint32_t> corners_;          // corners of the face being read
   std::vector<TextureCoordinates> at_corners_;  // coordinates; empty if no material has a map
   ObjMaterials materials_;
-  std::vector<std::array<float, 2>> places_;                  // all texture coordinates of the file
-  ColourMeans means_;                                         // mean material colours
-  std::map<std::string_view, std::uint64_t> other_elements_;  // key: keyword
-  std::map<std::string, std::string> missing_libraries_;      // name -> why it is not read
+  std::vector<std::array<float, 2>> places_;              // all texture coordinates of the file
+  ColourMeans means_;                                     // mean material colours
+  std::map<std::string, std::uint64_t> other_elements_;   // key: keyword
+  std::uint64_t unknown_ = 0;                             // number of unknown statements
+  std::set<std::string> unknown_names_;                   // the first few of their keywords
+  std::map<std::string, std::string> missing_libraries_;  // name -> why it is not read
   std::set<std::string> before_library_;  // materials used before the first `mtllib` statement
   bool names_library_ = false;            // whether a `mtllib` statement was read
   bool has_material_ = false;             // whether a `usemtl` statement was read
@@ -243,9 +277,13 @@ class ObjReader {
 }  // namespace
 
 bool is_obj(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::string_view, 13> kKeywords{
-      "v", "vn", "vt", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl", "cstype"};
-  return std::ranges::count(kKeywords, first_word(bytes)) > 0;
+  constexpr std::array<std::string_view, 6> kKeywords{"vp", "f", "s", "l", "p", "cstype"};
+  // These keywords may have capitals. A capital S or P begins many other texts.
+  constexpr std::array<std::string_view, 7> kInAnyCase{"v", "vn",     "vt",    "o",
+                                                       "g", "mtllib", "usemtl"};
+  const std::string_view word = first_word(bytes);
+  return std::ranges::count(kKeywords, word) > 0 ||
+         std::ranges::count(kInAnyCase, lower_case(word.substr(0, 8))) > 0;
 }
 
 Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const ReadOptions& options) {

@@ -99,7 +99,8 @@ class BinaryValues {
   ByteReader bytes_;
 };
 
-constexpr std::uint64_t kMostNamed = 4;  // largest number of unread properties that a message names
+// Largest number of unread properties or elements that a message names.
+constexpr std::uint64_t kMostNamed = 4;
 
 enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kPacked, kAlpha, kNowhere };
 
@@ -148,17 +149,20 @@ Slot slot_of(const PlyProperty& property) {
   return kNowhere;
 }
 
-// Returns the factor that scales a colour component of this type to [0, 1].
-double scale_of(PlyType type) {
-  switch (type) {
-    case PlyType::kFloat32:
-    case PlyType::kFloat64:
-      return 1;
-    case PlyType::kUint16:
-      return 1.0 / 65535;
-    default:
-      return 1.0 / 255;  // wider integer types hold values from 0 to 255 as well
-  }
+bool is_byte(PlyType type) {
+  return type == PlyType::kInt8 || type == PlyType::kUint8;
+}
+
+// Whether the type is an integer that holds colours up to 65535. Some programs write colours up to
+// 255 with such a type.
+bool is_wide_integer(PlyType type) {
+  return !is_byte(type) && !is_real(type);
+}
+
+// Whether `opacity`, a value of this type, is less than full.
+bool is_translucent_value(PlyType type, double opacity) {
+  if (is_byte(type)) return opacity < 255;
+  return is_wide_integer(type) ? opacity < 65535 && opacity != 255 : is_translucent(opacity);
 }
 
 // Whether no message about an unread property of a vertex is needed: the reader uses the property,
@@ -173,14 +177,11 @@ struct VertexPlan {
   std::vector<Slot> slots;
   std::vector<PlyType> types;  // per property: the type with which it is read
   unsigned found = 0;          // bit n is set if a property of the file is read into slot n
-  double colour_scale = 1;
+  PlyType colour_type = PlyType::kUint8;
+  PlyType alpha_type = PlyType::kUint8;
   bool has_normal = false;
-  // Whether the range of the colours is unknown: floats are up to 1 or up to 255, 16-bit integers
-  // are up to 65535 or up to 255.
-  bool has_open_range = false;
   bool has_float_bits = false;  // whether packed colours are stored as floats
   bool has_packed_alpha = false;
-  double alpha_scale = 1;
 
   VertexPlan(const PlyElement& element, bool is_text) {
     for (const PlyProperty& property : element.properties) {
@@ -189,14 +190,11 @@ struct VertexPlan {
       slots.push_back(slot);
       types.push_back(has_bits ? PlyType::kUint32 : property.type);
       has_float_bits = has_float_bits || (has_bits && is_text);
-      has_open_range =
-          has_open_range ||
-          (slot == kRed && (is_real(property.type) || property.type == PlyType::kUint16));
       found |= 1u << slot;
       has_normal = has_normal || property.name == "nx";
       has_packed_alpha = has_packed_alpha || (slot == kPacked && property.name == "rgba");
-      if (slot == kRed) colour_scale = scale_of(property.type);
-      if (slot == kAlpha) alpha_scale = scale_of(property.type);
+      if (slot == kRed) colour_type = property.type;
+      if (slot == kAlpha) alpha_type = property.type;
     }
   }
   bool has_position() const { return (found & 7) == 7; }
@@ -223,7 +221,9 @@ class BodyReader {
       auto ok = read_element(element);
       if (!ok) return tl::unexpected(ok.error());
     }
+    report_unread_elements();
     finish_texture();
+    if (has_wide_faces_) face_colours_.scale_wide_integers();
     face_colours_.give_to(mesh_);
     textures_.give_to(mesh_);
     return std::move(mesh_);
@@ -259,15 +259,33 @@ class BodyReader {
     if (element.name == "tristrips") {
       return read_faces(element, "vertex_ind", &BodyReader::strip_of);
     }
-    if (element.name == "edge" && element.count > 0)
-      mesh_.repairs.push_back(counted(element.count, "edge") +
-                              " not carried; convert what you need to faces");
+    note_unread(element);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties)
         skip(property);
       if (values_.has_failed()) return cut_short(element, i);
     }
     return {};
+  }
+
+  void note_unread(const PlyElement& element) {
+    if (element.count == 0 || element.name == "camera" || element.name == "range_grid") return;
+    if (element.name == "edge") {
+      mesh_.repairs.push_back(counted(element.count, "edge") +
+                              " not carried; convert what you need to faces");
+      return;
+    }
+    unread_elements_ += element.count;
+    if (unread_names_.size() < kMostNamed) unread_names_.push_back(in_quotes(element.name));
+  }
+
+  void report_unread_elements() {
+    if (unread_elements_ == 0) return;
+    std::string names;
+    for (const std::string& name : unread_names_)
+      names += (names.empty() ? "" : ", ") + name;
+    mesh_.repairs.push_back(counted(unread_elements_, "element") + " of other kinds (" + names +
+                            ") not carried; export what you need as faces and vertex colours");
   }
 
   Expected<void> read_vertices(const PlyElement& element) {
@@ -298,20 +316,10 @@ class BodyReader {
       if (plan.has_place() && !textures_.empty())
         mesh_.vertex_coordinates[0].push_back(from_upwards(row[kU], row[kV]));
     }
-    if (plan.colour_scale == scale_of(PlyType::kUint16)) scale_wide(stated);
+    if (is_wide_integer(plan.colour_type)) scale_wide_integers(stated);
     if (!stated.empty()) mesh_.attributes.colours = to_colours(stated, mesh_.repairs);
     report_unread(element);
     return {};
-  }
-
-  // Scales colours of 16-bit integers to the range 0 to 1, unless none is above 255.
-  static void scale_wide(std::vector<StatedColour>& stated) {
-    const auto is_wide = [](const StatedColour& colour) { return std::ranges::max(colour) > 255; };
-    if (std::ranges::none_of(stated, is_wide)) return;
-    for (StatedColour& colour : stated) {
-      for (float& part : colour)
-        part /= 65535;
-    }
   }
 
   void report_unread(const PlyElement& element) {
@@ -327,22 +335,21 @@ class BodyReader {
   }
 
   // Adds a vertex colour to the mesh. Adds it to `stated` instead if its range is known only after
-  // the last vertex.
+  // the last vertex: floats are up to 1 or up to 255, wide integers up to 65535 or up to 255.
   void add_colour(const VertexPlan& plan, const SlotValues& row,
                   std::vector<StatedColour>& stated) {
     std::vector<Colour>& colours = mesh_.attributes.colours;
-    const double scale = plan.colour_scale;
     if (plan.has_alpha())
-      mesh_.translucent_colours += is_translucent(row[kAlpha] * plan.alpha_scale);
+      mesh_.translucent_colours += is_translucent_value(plan.alpha_type, row[kAlpha]);
     if (plan.has_packed_colour()) {
       const std::uint32_t bits = packed_bits(row[kPacked], plan.has_float_bits);
       colours.push_back(unpacked(bits));
       mesh_.translucent_colours += plan.has_packed_alpha && bits >> 24 != 255;
-    } else if (plan.has_colour() && plan.has_open_range) {
-      stated.push_back(stated_colour(row));
-    } else if (plan.has_colour()) {
+    } else if (plan.has_colour() && is_byte(plan.colour_type)) {
       colours.push_back(
-          {to_byte(row[kRed] * scale), to_byte(row[kGreen] * scale), to_byte(row[kBlue] * scale)});
+          {to_byte(row[kRed] / 255), to_byte(row[kGreen] / 255), to_byte(row[kBlue] / 255)});
+    } else if (plan.has_colour()) {
+      stated.push_back(stated_colour(row));
     }
   }
 
@@ -359,6 +366,7 @@ class BodyReader {
     bool has_list = false;
     for (const PlyProperty& p : element.properties) {
       has_list = has_list || (p.is_list && p.name.starts_with(list));
+      has_wide_faces_ = has_wide_faces_ || (slot_of(p) == kRed && is_wide_integer(p.type));
       if (p.name == "texcoord" && !uses_places()) {
         mesh_.repairs.push_back("texture coordinates of " + counted(element.count, "face") +
                                 " not carried; to use them, name the picture in a comment "
@@ -373,7 +381,7 @@ class BodyReader {
       if (!row_.has_corners) continue;
       if (row_.colour_parts == 7) {
         face_colours_.add(row_.corners, row_.colour);
-        mesh_.translucent_colours += is_translucent(row_.opacity);
+        mesh_.translucent_colours += row_.is_translucent;
       }
       apply_places();
       (this->*add)(row_.corners);
@@ -395,11 +403,11 @@ class BodyReader {
         row_.has_corners = read_list(property, row_.corners);
       } else if (const Slot slot = slot_of(property); slot >= kRed && slot <= kBlue) {
         const auto part = static_cast<std::size_t>(slot - kRed);
-        row_.colour[part] =
-            static_cast<float>(values_.real(property.type) * scale_of(property.type));
+        const double value = values_.real(property.type);
+        row_.colour[part] = static_cast<float>(is_byte(property.type) ? value / 255 : value);
         row_.colour_parts |= 1u << part;
       } else if (slot == kAlpha) {
-        row_.opacity = values_.real(property.type) * scale_of(property.type);
+        row_.is_translucent = is_translucent_value(property.type, values_.real(property.type));
       } else {
         skip(property);
       }
@@ -482,11 +490,11 @@ class BodyReader {
     bool has_corners = false;
     StatedColour colour{};
     unsigned colour_parts = 0;  // bit k is set if this row has component k of `colour`
-    double opacity = 1;
+    bool is_translucent = false;
 
     void clear() {
       corners.clear(), places.clear();
-      texnumber = 0, has_corners = false, colour_parts = 0, opacity = 1;
+      texnumber = 0, has_corners = false, colour_parts = 0, is_translucent = false;
     }
   };
 
@@ -495,6 +503,9 @@ class BodyReader {
   std::vector<const Picture*> found_;
   PlyTextures textures_;
   FaceColours face_colours_;
+  bool has_wide_faces_ = false;                 // whether colours of faces are wide integers
+  std::uint64_t unread_elements_ = 0;           // number of elements of unknown kinds
+  std::vector<std::string> unread_names_;       // the first few of their kinds
   ColourMeans means_;                           // mean picture colour per vertex; may be empty
   FaceRow row_;                                 // the row being read
   std::vector<TextureCoordinates> at_corners_;  // texture coordinates of the face; may be empty
@@ -505,7 +516,9 @@ class BodyReader {
 
 bool is_ply(std::span<const std::uint8_t> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return text.starts_with("ply\n") || text.starts_with("ply\r");
+  const std::size_t end = text.find_first_not_of(" \t", 3);
+  return lower_case(text.substr(0, 3)) == "ply" && end != text.npos &&
+         (text[end] == '\r' || text[end] == '\n');
 }
 
 Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const ReadOptions& options) {

@@ -3,6 +3,7 @@
 // vertices with equal positions.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "codec/core/byte_cursor.h"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84;  // 80 bytes of free text, then the number of facets
 constexpr std::size_t kFacetBytes = 50;
+constexpr std::size_t kMostFacets = 500'000'000;  // largest credible count
+constexpr float kMostUnitNormal = 1.01F;          // largest component of a normal of length 1
 
 std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -26,6 +29,8 @@ struct Facets {
   std::vector<Vec3> corners;
   // One colour per facet, or kNoColour. Colours of the last facets may be missing.
   std::vector<StatedColour> colours;
+  // Number of facets whose attribute bytes are not known to be a colour.
+  std::size_t unknown_attributes = 0;
 
   void paint(const StatedColour& colour) {
     colours.resize(corners.size() / 3, kNoColour);
@@ -58,6 +63,10 @@ Expected<RawMesh> weld_facets(Facets facets) {
     mesh.add_triangle({index[i], index[i + 1], index[i + 2]});
   }
   paint_faces(facets.colours, index, mesh);
+  if (facets.unknown_attributes > 0)
+    mesh.repairs.push_back("attribute bytes of " + counted(facets.unknown_attributes, "facet") +
+                           " not carried: nothing in the file says that they are colours; to keep "
+                           "colours, export PLY or OBJ");
   return mesh;
 }
 
@@ -78,14 +87,13 @@ bool are_plausible_facets(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// Whether the bytes after the stated number of facets are more facets. Their numbers must be
-// plausible, no component of a normal may exceed 1.01, and at least one byte must not be zero.
-bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
-  constexpr float kMostNormal = 1.01F;
+// Whether all facets in the bytes have plausible corners. No component of a normal may exceed
+// `most_normal`, and not all bytes may be zero.
+bool have_plausible_corners(std::span<const std::uint8_t> bytes, float most_normal) {
   ByteReader facets(bytes);
   for (std::size_t f = 0; f < bytes.size() / kFacetBytes; ++f) {
     for (int k = 0; k < 3; ++k) {
-      if (std::abs(facets.read<float>()) > kMostNormal) return false;  // NaN is allowed
+      if (std::abs(facets.read<float>()) > most_normal) return false;  // NaN is allowed
     }
     for (int k = 0; k < 9; ++k) {
       if (!is_plausible(facets.read<float>())) return false;
@@ -96,10 +104,10 @@ bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
 }
 
 // Whether the bytes after the header are facets, although the stated count and the file's size are
-// not credible. Demands at least four facets, which a closed surface needs. Most facets must have
-// three different corners: other data with many zeros looks like facets with equal corners.
-bool are_mostly_triangles(std::span<const std::uint8_t> file) {
-  constexpr std::size_t kFewestFacets = 4, kNormalBytes = 12, kCornerBytes = 12;
+// not credible. Demands at least `fewest` facets. Most facets must have three different corners:
+// other data with many zeros looks like facets with equal corners.
+bool are_mostly_triangles(std::span<const std::uint8_t> file, std::size_t fewest) {
+  constexpr std::size_t kNormalBytes = 12, kCornerBytes = 12;
   const std::size_t count = (file.size() - kHeaderBytes) / kFacetBytes;
   std::size_t triangles = 0;
   for (std::size_t f = 0; f < count; ++f) {
@@ -109,7 +117,19 @@ bool are_mostly_triangles(std::span<const std::uint8_t> file) {
     };
     triangles += corner(0) != corner(1) && corner(1) != corner(2) && corner(2) != corner(0);
   }
-  return count >= kFewestFacets && triangles > count / 2;
+  return count >= fewest && triangles > count / 2;
+}
+
+// Whether the facets of the file after the first `known` ones are facets, too. Normals may have any
+// length, as some programs write them, if the file otherwise looks like nothing but triangles.
+// `is_whole`: the file ends with the last facet
+bool are_surplus_facets(std::span<const std::uint8_t> file, std::size_t known, bool is_whole) {
+  constexpr std::size_t kFacetsOfASolid = 4;
+  const bool are_triangles = are_mostly_triangles(file, kFacetsOfASolid);
+  if (known == 0 && !is_whole && !are_triangles) return false;
+  const float most_normal =
+      is_whole && are_triangles ? std::numeric_limits<float>::infinity() : kMostUnitNormal;
+  return have_plausible_corners(file.subspan(kHeaderBytes + kFacetBytes * known), most_normal);
 }
 
 std::uint32_t stated_facets(std::span<const std::uint8_t> bytes) {
@@ -135,7 +155,6 @@ bool looks_like_text(std::span<const std::uint8_t> bytes) {
 // small. The number then follows from the file's size, even if some bytes of padding follow the
 // facets. If a credible count is too large for the file, the file counts as truncated.
 std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kMostFacets = 500'000'000;
   if (bytes.size() < kHeaderBytes) return std::nullopt;
   const std::size_t stated = stated_facets(bytes), body = bytes.size() - kHeaderBytes;
   const std::size_t there = body / kFacetBytes;
@@ -145,10 +164,7 @@ std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
   const bool is_believed = stated > 0 && stated <= kMostFacets;
   if (is_believed && stated > there) return std::nullopt;
   const std::size_t known = is_believed ? stated : 0;
-  const bool may_have_more =
-      known < there && (is_believed || is_whole || are_mostly_triangles(bytes));
-  if (may_have_more && are_surplus_facets(bytes.subspan(kHeaderBytes + kFacetBytes * known)))
-    return there;
+  if (known < there && are_surplus_facets(bytes, known, is_whole)) return there;
   return is_believed ? std::optional(stated) : std::nullopt;
 }
 
@@ -173,29 +189,31 @@ StatedColour facet_colour(std::uint16_t bits, const std::optional<StatedColour>&
   return flag ? StatedColour{part(10), part(5), part(0)} : kNoColour;
 }
 
-std::vector<StatedColour> colours_of_facets(std::span<const std::uint8_t> bytes,
-                                            std::size_t count) {
-  auto of_object = object_colour(bytes);
+// Reads the colours of the first `count` facets from their attribute bytes.
+void read_colours(std::span<const std::uint8_t> bytes, std::size_t count, Facets& out) {
+  const auto of_object = object_colour(bytes);
   const auto bits = [&](std::size_t f) {
     return load<std::uint16_t>(&bytes[kHeaderBytes + kFacetBytes * (f + 1) - 2]);
   };
   bool has_bits = false;
   for (std::size_t f = 0; f < count && !has_bits; ++f)
     has_bits = bits(f) != 0;
-  if (!has_bits && !of_object) return {};
-  std::vector<StatedColour> colours(count);
-  for (std::size_t f = 0; f < count; ++f)
-    colours[f] = has_bits ? facet_colour(bits(f), of_object) : *of_object;
-  return colours;
+  if (!has_bits && !of_object) return;
+  out.colours.resize(count);
+  for (std::size_t f = 0; f < count; ++f) {
+    out.colours[f] = has_bits ? facet_colour(bits(f), of_object) : *of_object;
+    out.unknown_attributes += bits(f) != 0 && std::isnan(out.colours[f][0]);
+  }
 }
 
 std::string report_count(std::span<const std::uint8_t> bytes, std::size_t count) {
   const std::size_t rest = bytes.size() - kHeaderBytes - kFacetBytes * count;
-  if (stated_facets(bytes) != count) {
+  if (const std::size_t stated = stated_facets(bytes); stated != count) {
     const std::string tail = rest == 0 ? "" : ", and " + counted(rest, "byte") + " after them not";
     return counted(count, "facet") + " read by the file's size" + tail +
-           ", though its header counts " + std::to_string(stated_facets(bytes)) +
-           "; compare the model with its source";
+           ", though its header counts " + std::to_string(stated) +
+           (stated > count && stated <= kMostFacets ? "; the file may be cut short: " : "; ") +
+           "compare the model with its source";
   }
   if (rest < kFacetBytes) return {};
   return counted(rest, "byte") +
@@ -214,7 +232,7 @@ Expected<RawMesh> read_binary(std::span<const std::uint8_t> bytes, std::size_t c
     }
     facets.skip(2);
   }
-  out.colours = colours_of_facets(bytes, count);
+  read_colours(bytes, count, out);
   auto mesh = weld_facets(std::move(out));
   if (const auto line = report_count(bytes, count); mesh && !line.empty())
     mesh->repairs.push_back(line);
@@ -230,19 +248,39 @@ class AsciiStl {
       const std::string word = lower_word();
       if (!take(word)) {
         if (text_.has_decimal_comma()) return has_commas();
+        if (is_cut_here()) break;
         return bad_input("STL line " + std::to_string(text_.line()) + ": " + in_quotes(word) +
                          " is out of place or lacks numbers; the file is damaged, export it again");
       }
     }
-    if (is_inside_)
-      return bad_input("the STL file has no endsolid; it is cut short, copy it again");
-    return weld_facets(std::move(facets_));
+    return is_inside_ ? read_cut() : weld_facets(std::move(facets_));
   }
 
  private:
   Unexpected has_commas() const {
     return bad_input("STL line " + std::to_string(text_.line()) + ": " +
                      std::string(kDecimalCommas));
+  }
+
+  // Whether the text ends with the statement that cannot be read, or with one more word.
+  bool is_cut_here() const {
+    TextCursor rest = text_;
+    const std::string last = lower_case(rest.word());
+    return is_inside_ && !last.starts_with("endsolid") && !rest.seek_word();
+  }
+
+  // Returns the complete facets of a text without endsolid at its end.
+  Expected<RawMesh> read_cut() {
+    const std::size_t count = (facets_.corners.size() - static_cast<std::size_t>(corners_)) / 3;
+    facets_.corners.resize(3 * count);
+    if (count == 0)
+      return bad_input("the STL file has no endsolid; it is cut short, copy it again");
+    auto mesh = weld_facets(std::move(facets_));
+    if (mesh)
+      mesh->repairs.push_back(counted(count, "facet") +
+                              " read from a text without endsolid at its end; the file may be cut "
+                              "short: compare the model with its source");
+    return mesh;
   }
 
   std::string lower_word() { return lower_case(text_.word().substr(0, 12)); }
@@ -307,7 +345,8 @@ class AsciiStl {
   }
 
   bool read_vertex() {
-    if (corners_++ == 3 || !read_numbers()) return false;
+    if (corners_ == 3 || !read_numbers()) return false;
+    ++corners_;
     facets_.corners.push_back({values_[0], values_[1], values_[2]});
     return true;
   }
@@ -319,17 +358,45 @@ class AsciiStl {
   bool is_inside_ = false;
 };
 
-// Returns how much of a truncated binary STL file is present, such as "3 of 12 triangles". Returns
-// nullopt if the bytes do not look like binary STL or the first triangle is incomplete.
-std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes) {
+// Whether each normal has the length 1 or 0. Bytes of other formats hardly ever look like that.
+bool have_unit_normals(std::span<const std::uint8_t> bytes) {
+  constexpr float kMostDeviation = 0.03F;
+  ByteReader facets(bytes);
+  for (std::size_t f = 0; f < bytes.size() / kFacetBytes; ++f) {
+    float squares = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto part = facets.read<float>();
+      squares += part * part;
+    }
+    if (squares > 0 && std::abs(squares - 1) > kMostDeviation) return false;
+    facets.skip(38);
+  }
+  return true;
+}
+
+// Returns the number of facets that a truncated binary STL file still has. Returns nullopt if the
+// bytes do not look like binary STL or the first facet is incomplete.
+std::optional<std::size_t> facets_of_cut_stl(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kHeaderBytes + kFacetBytes) return std::nullopt;
-  const std::size_t count = load<std::uint32_t>(&bytes[80]);
+  const std::size_t count = stated_facets(bytes);
   const std::size_t there = (bytes.size() - kHeaderBytes) / kFacetBytes;
   const auto header = bytes.first(kHeaderBytes);
   const bool may_be_text = std::find(header.begin(), header.end(), 0) == header.end();
   if (may_be_text || there >= count) return std::nullopt;
   if (!are_plausible_facets(bytes.subspan(kHeaderBytes))) return std::nullopt;
-  return std::to_string(there) + " of " + std::to_string(count) + " triangles";
+  return there;
+}
+
+// Whether the bytes are a truncated binary STL file beyond doubt.
+bool is_cut_stl(std::span<const std::uint8_t> bytes) {
+  return facets_of_cut_stl(bytes) && are_mostly_triangles(bytes, 1) &&
+         have_unit_normals(bytes.subspan(kHeaderBytes));
+}
+
+Expected<RawMesh> read_cut(std::span<const std::uint8_t> bytes, std::size_t there) {
+  if (is_cut_stl(bytes)) return read_binary(bytes, there);
+  return bad_input("the STL file is cut short: only " + std::to_string(there) + " of " +
+                   std::to_string(stated_facets(bytes)) + " triangles are there; copy it again");
 }
 
 // Accepts "solid" without a space after it, because some programs write the solid's name directly
@@ -345,18 +412,20 @@ bool is_text_stl(std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 bool is_binary_stl(std::span<const std::uint8_t> bytes) {
-  return binary_facets(bytes).has_value();
+  return binary_facets(bytes) || is_cut_stl(bytes);
 }
 
 bool is_stl(std::span<const std::uint8_t> bytes) {
-  return is_binary_stl(bytes) || facets_of_cut_stl(bytes) || is_text_stl(bytes);
+  return is_binary_stl(bytes) || is_text_stl(bytes);
+}
+
+bool may_be_cut_stl(std::span<const std::uint8_t> bytes) {
+  return facets_of_cut_stl(bytes).has_value();
 }
 
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes, const ReadOptions&) {
   if (const auto count = binary_facets(bytes)) return read_binary(bytes, *count);
-  if (const auto there = facets_of_cut_stl(bytes)) {
-    return bad_input("the STL file is cut short: only " + *there + " are there; copy it again");
-  }
+  if (const auto there = facets_of_cut_stl(bytes)) return read_cut(bytes, *there);
   return AsciiStl(bytes).read();
 }
 

@@ -29,7 +29,7 @@ std::span<const std::uint8_t> without_mark(std::span<const std::uint8_t> bytes);
 // Each function returns whether the bytes begin like a file of its format.
 bool is_ply(std::span<const std::uint8_t> bytes);
 bool is_obj(std::span<const std::uint8_t> bytes);
-bool is_stl(std::span<const std::uint8_t> bytes);  // also true for a truncated binary file
+bool is_stl(std::span<const std::uint8_t> bytes);
 bool is_off(std::span<const std::uint8_t> bytes);
 bool is_glb(std::span<const std::uint8_t> bytes);
 bool is_gltf(std::span<const std::uint8_t> bytes);
@@ -38,6 +38,9 @@ bool is_dae(std::span<const std::uint8_t> bytes);
 bool is_fbx(std::span<const std::uint8_t> bytes);
 
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
+// Whether the bytes may be a truncated binary STL file, although is_stl() does not recognise them.
+// read_stl() then returns an error that tells how much is there.
+bool may_be_cut_stl(std::span<const std::uint8_t> bytes);
 bool is_off_keyword(std::string_view word);
 
 // Each function returns the unit of the mesh that the reader of its format returns.

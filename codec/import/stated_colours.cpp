@@ -38,6 +38,15 @@ bool are_up_to_255(std::span<const StatedColour> stated) {
   return largest > kMostOvershoot && above >= fractions;
 }
 
+void scale_wide_integers(std::span<StatedColour> stated) {
+  const auto is_wide = [](const StatedColour& colour) { return std::ranges::max(colour) > 255; };
+  if (std::ranges::none_of(stated, is_wide)) return;
+  for (StatedColour& colour : stated) {
+    for (float& part : colour)
+      part /= 65535;
+  }
+}
+
 std::vector<Colour> to_colours(std::span<const StatedColour> stated,
                                std::vector<std::string>& repairs) {
   const bool is_wide = are_up_to_255(stated);

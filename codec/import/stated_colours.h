@@ -29,6 +29,10 @@ inline bool is_translucent(double opacity) {
 // above 1 still count as the range 0 to 1.
 bool are_up_to_255(std::span<const StatedColour> stated);
 
+// Scales colours that a file states as integers of 16 or more bits. If one of them is above 255,
+// their range is 0 to 65535, and they are scaled to the range 0 to 1. Otherwise they stay.
+void scale_wide_integers(std::span<StatedColour> stated);
+
 // Counts the values of colours that are out of range, and the colours that are missing.
 class ColourFaults {
  public:
@@ -57,6 +61,9 @@ class FaceColours {
   void add(std::span<const std::uint32_t> corners, const StatedColour& colour);
   // Adds a triangle and the colours of its corners.
   void add(const Triangle& corners, const std::array<StatedColour, 3>& colours);
+
+  // Scales the colours of all faces; see the function above.
+  void scale_wide_integers() { vitrine::scale_wide_integers(colours_); }
 
   // Sets the colour of each vertex to the mean colour of the face corners at the vertex, and
   // reports which colours are lost. Leaves the mesh unchanged if all faces are white or if the mesh

@@ -7,9 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+
+#include "codec/core/parse_number.h"
 
 namespace vitrine::inline codec {
 
@@ -62,7 +66,8 @@ class TextCursor {
     return {begin, static_cast<std::size_t>(at_ - begin)};
   }
 
-  // Reads the number at the cursor: a double, float or integer. The number must be a whole word or
+  // Reads the number at the cursor: a double, float or integer. A real number may have the exponent
+  // of Fortran, as in 1.0D+00. The number must be a whole word or
   // be followed by `stop`. If the line has no such number, returns false and leaves the cursor
   // before the word.
   template <class Number>
@@ -72,7 +77,11 @@ class TextCursor {
     if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
     const auto [after, error] = std::from_chars(begin, end_, value);
     if (error == std::errc::invalid_argument) return false;
-    if (after != end_ && !is_space(*after) && *after != stop) return false;
+    if (after != end_ && !is_space(*after) && *after != stop) {
+      if constexpr (std::is_floating_point_v<Number>)
+        return read_fortran(begin, after, value, stop);
+      return false;
+    }
     if (error == std::errc::result_out_of_range) value = out_of_range(value, begin, after);
     at_ = after;
     return true;
@@ -107,6 +116,22 @@ class TextCursor {
 
   static bool is_space(char c) {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  }
+
+  // Reads the number at `begin` if its exponent, at `mark`, begins with the letter D.
+  template <class Number>
+  bool read_fortran(const char* begin, const char* mark, Number& value, char stop) {
+    constexpr std::ptrdiff_t kMostCharacters = 64;
+    if (*mark != 'D' && *mark != 'd') return false;
+    const char* end = mark;
+    while (end != end_ && !is_space(*end) && *end != stop && end - begin < kMostCharacters)
+      ++end;
+    std::string text(begin, end);
+    text[static_cast<std::size_t>(mark - begin)] = 'e';
+    TextCursor copy({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    if (!copy.read_number(value) || !copy.is_at_end()) return false;
+    at_ = end;
+    return true;
   }
 
   // Returns a substitute for a number that is out of range: 0 if it is too small, the type's
@@ -156,6 +181,15 @@ inline std::string lower_case(std::string_view text) {
 
 inline constexpr std::string_view kDecimalCommas =
     "numbers have decimal commas; write them with points";
+
+// Parses all of `text` as a real number with a decimal point or comma. Some exporters write commas.
+inline std::optional<double> parse_real(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos) return parse_number<double>(text);
+  std::string with_point(text);
+  with_point[comma] = '.';
+  return parse_number<double>(with_point);
+}
 
 inline std::string_view first_word(std::span<const std::uint8_t> bytes) {
   TextCursor text(bytes);

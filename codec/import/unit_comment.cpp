@@ -115,7 +115,7 @@ std::string_view unit_in_hash_comments(std::string_view head) {
 std::string_view unit_in_comments(std::span<const std::uint8_t> file) {
   const std::string_view head(reinterpret_cast<const char*>(file.data()),
                               std::min(file.size(), kMostHeadBytes));
-  if (head.starts_with("ply")) return unit_in_ply(head);
+  if (is_ply(file)) return unit_in_ply(head);
   if (is_binary_stl(file)) return unit_in_line(head.substr(0, 80)).value_or("");
   if (head.starts_with("solid"))
     return unit_in_line(head.substr(0, head.find_first_of("\r\n"))).value_or("");

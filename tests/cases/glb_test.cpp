@@ -308,6 +308,18 @@ TEST(GlbCases, PaddingThatIsCountedButNotWritten) {
   EXPECT_THAT(result.repairs, ElementsAre(HasSubstr("1 buffer view longer than its buffer")));
 }
 
+TEST(GlbCases, AViewThatIsLongerThanItsBuffer) {
+  Model model;
+  model.document["bufferViews"][1]["byteLength"] = 99'999;
+  const auto result = read_text(model.file());
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("1 buffer view longer than its buffer read as far as the buffer goes; "
+                          "report it to the makers of the exporter"));
+  model.document["bufferViews"][1]["byteOffset"] = 99'999;
+  EXPECT_THAT(refusal(model.file()), HasSubstr("buffer view 1 lies beyond the end of its buffer"));
+}
+
 std::string u32(std::size_t n) {
   return bytes_of<std::uint32_t>({static_cast<std::uint32_t>(n)});
 }
@@ -428,15 +440,33 @@ std::vector<Case> contents_left_out() {
   Model scenes;
   scenes.document["nodes"].push_back({{"mesh", 0}});
   scenes.document["scenes"].push_back({{"nodes", {1}}});
+  Model outside;
+  outside.document["nodes"].push_back({{"mesh", 0}});
+  Model unused;
+  unused.append("meshes", unused.document["meshes"][0]);
+  Model levels;
+  levels.document["nodes"].push_back({{"mesh", 0}});
+  levels.node()["extensions"]["MSFT_lod"]["ids"] = {1};
+  Model incomplete;
+  incomplete.primitive()["indices"] = incomplete.accessor(
+      "SCALAR", 5123, 5,
+      {{"bufferView", incomplete.view(bytes_of<std::uint16_t>({0, 1, 2, 0, 1}))}});
   Model variants;
   variants.document["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}};
   const auto case_of = [](const std::string& situation, const Model& model,
                           const std::string& said) {
     return Case{.situation = situation, .file = model.file(), .faces = 1, .said = said};
   };
-  return {case_of("a hidden node", hidden, "1 hidden node and the nodes below not carried"),
-          case_of("a second scene", scenes, "1 scene besides the default one not carried"),
-          case_of("material variants", variants, "1 material variant not carried")};
+  return {
+      case_of("a hidden node", hidden, "1 hidden node and the nodes below not carried"),
+      case_of("a node outside the scene", outside,
+              "1 use of a mesh outside all scenes not carried; add it to the scene"),
+      case_of("a mesh without a node", unused, "1 use of a mesh outside all scenes not carried"),
+      case_of("a lower level of detail", levels, ""),
+      case_of("five indices of triangles", incomplete,
+              "1 primitive with a last face that lacks corners, which is not carried"),
+      case_of("a second scene", scenes, "1 scene besides the default one not carried"),
+      case_of("material variants", variants, "1 material variant not carried")};
 }
 
 TEST(GlbCases, AModelWhoseNodesAreAllHiddenIsRefused) {

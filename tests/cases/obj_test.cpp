@@ -61,6 +61,30 @@ TEST(ObjCases, ElementsWithoutFacesAreCounted) {
                "surf statement) not carried; convert what you need to polygons"});
 }
 
+std::vector<Case> other_statements() {
+  std::string many = kObjCorners + kObjFaces;
+  for (const char letter : std::string("abcdehijkm"))
+    many += std::string("x") + letter + " 1\n";
+  return {
+      {.situation = "keywords in capitals",
+       .file = "MTLLIB m.mtl\nV 0 0 0\nV 1 0 0\nV 0 1 0\nV 0 0 1\nVN 0 0 1\nUSEMTL m\n"
+               "F 1 3 2\nF 1 2 4\nF 2 3 4\nF 3 1 4\n",
+       .colours = std::vector(4, kRedCase),
+       .said = "colours of 1 material baked",
+       .beside = {{"m.mtl", "newmtl m\nKd 1 0 0\n"}}},
+      {.situation = "fo, the former keyword of a face",
+       .file = kObjCorners + "fo 1 3 2\nfo 1 2 4\nfo 2 3 4\nfo 3 1 4\n"},
+      {.situation = "colours of vertices on their own lines",
+       .file = kObjCorners + "vc 1 0 0\nvc 1 0 0\nvc 1 0 0\nvc 1 0 0\n" + kObjFaces,
+       .said = "4 unknown statements not carried ('vc'); if they hold faces or colours, export "
+               "the model as PLY or GLB"},
+      {.situation = "statements of groups, smoothing and detail",
+       .file = "G a\n" + kObjCorners + "o b\ng c\ns off\nmg 1 0.5\nlod 3\nbevel on\n" + kObjFaces},
+      {.situation = "more unknown statements than are named",
+       .file = many,
+       .said = "10 unknown statements not carried ('xa', 'xb', 'xc', 'xd'); if they hold"}};
+}
+
 std::vector<Case> colours_above_1() {
   return {{.situation = "components of 256 / 255",
            .file = painted({"1.003922 0 0", "0 1.003922 0", "0 0 1.003922", "0.784314 0.784314 0"}),
@@ -344,13 +368,26 @@ std::vector<Case> ambient_maps() {
 }
 
 std::vector<Case> names_with_more() {
-  return {map_case("map_Kd t.png # comment"),
-          map_case("map_Kd -s 1 1 1 t.png\t #"),
-          {.situation = "a library in quotation marks",
-           .file = dressed("mtllib \"my a.mtl\""),
-           .colours = kAllRed,
-           .said = "colours of 1 material baked",
-           .beside = {{"my a.mtl", "newmtl m\nKd 1 0 0\n"}}}};
+  std::string commented = dressed("mtllib m.mtl");
+  commented.insert(commented.find('\n', commented.find("usemtl")), " # comment");
+  return {
+      map_case("map_Kd t.png # comment"),
+      map_case("map_Kd -s 1 1 1 t.png\t #"),
+      {.situation = "a library in quotation marks",
+       .file = dressed("mtllib \"my a.mtl\""),
+       .colours = kAllRed,
+       .said = "colours of 1 material baked",
+       .beside = {{"my a.mtl", "newmtl m\nKd 1 0 0\n"}}},
+      {.situation = "a picture's name as in a URI",
+       .file = dressed("mtllib m.mtl"),
+       .colours = kAllRed,
+       .said = "1 texture map baked",
+       .beside = {{"m.mtl", "newmtl m\nmap_Kd b%20c.png\n"}, {"b c.png", png_of({255, 0, 0}, 1)}}},
+      {.situation = "a comment behind usemtl",
+       .file = commented,
+       .colours = kAllRed,
+       .said = "colours of 1 material baked",
+       .beside = {{"m.mtl", "newmtl m\nKd 1 0 0\n"}}}};
 }
 
 std::vector<Case> missing_colours() {
@@ -384,7 +421,8 @@ std::vector<testing::FileKind> testing::obj_kinds() {
           {"bom_of_mtl.obj", encodings_of_libraries()},
           {"map_ka.obj", ambient_maps()},
           {"map_comment.obj", names_with_more()},
-          {"colour_missing.obj", missing_colours()}};
+          {"colour_missing.obj", missing_colours()},
+          {"statements.obj", other_statements()}};
 }
 
 }  // namespace vitrine

@@ -105,13 +105,31 @@ TEST(PlyCases, LostOpacityIsCounted) {
     expect_case(expected);
 }
 
-TEST(PlyCases, EdgesAreCounted) {
+// Returns a text file with further elements: their declarations and their values.
+std::string with_elements(const std::string& declared, const std::string& values) {
   const std::string file = PlyRows{}.file();
-  const std::string header = "element edge 2\nproperty int vertex1\nproperty int vertex2\n";
   const std::size_t end = file.find("end_header");
-  expect_case({.situation = "two edges",
-               .file = file.substr(0, end) + header + file.substr(end) + "0 1\n1 2\n",
-               .said = "2 edges not carried; convert what you need to faces"});
+  return file.substr(0, end) + declared + file.substr(end) + values;
+}
+
+std::vector<Case> other_elements() {
+  const std::string materials = "element material 3\nproperty uchar red\n";
+  return {{.situation = "edges",
+           .file = with_elements("element edge 2\nproperty int vertex1\nproperty int vertex2\n",
+                                 "0 1\n1 2\n"),
+           .said = "2 edges not carried; convert what you need to faces"},
+          {.situation = "materials",
+           .file = with_elements(materials, "1\n2\n3\n"),
+           .said = "3 elements of other kinds ('material') not carried; export what you need as "
+                   "faces and vertex colours"},
+          {.situation = "two kinds",
+           .file = with_elements(materials + "element a 1\nproperty int x\n", "1\n2\n3\n4\n"),
+           .said = "4 elements of other kinds ('material', 'a') not carried"},
+          {.situation = "a scanner's camera and grid, and an empty element",
+           .file = with_elements("element camera 1\nproperty float view_px\n"
+                                 "element range_grid 1\nproperty list uchar int vertex_indices\n"
+                                 "element material 0\nproperty int x\n",
+                                 "0\n1 0\n")}};
 }
 
 TEST(PlyCases, ColoursPackedInOneNumber) {
@@ -195,6 +213,11 @@ std::vector<Case> integers_of_64_bits() {
   return {
       {.situation = "int64", .file = PlyRows{.index = "int64"}.file(), .triangles = faces},
       {.situation = "uint64", .file = PlyRows{.index = "uint64"}.file(), .triangles = faces},
+      {.situation = "long", .file = PlyRows{.index = "long"}.file(), .triangles = faces},
+      {.situation = "ulong", .file = PlyRows{.index = "ulong"}.file(), .triangles = faces},
+      {.situation = "binary long",
+       .file = with_wide_indices("long", false),
+       .refused = "PLY header, line 8: the type 'long' has no fixed size; export the file as text"},
       {.situation = "binary int64", .file = with_wide_indices("int64", false), .triangles = faces},
       {.situation = "binary uint64, big endian",
        .file = with_wide_indices("uint64", true),
@@ -211,20 +234,47 @@ std::vector<Case> comments_without_a_unit() {
   return cases;
 }
 
-std::vector<Case> colours_of_16_bits() {
-  const std::string colours = "property ushort red\nproperty ushort green\nproperty ushort blue\n";
-  const auto file = [&](const std::array<std::string, 4>& vertices) {
-    return PlyRows{.vertex_properties = colours, .vertices = vertices}.file();
+// Returns the declarations of colours whose components have the type `type`.
+std::string colours_as(const std::string& type) {
+  return "property " + type + " red\nproperty " + type + " green\nproperty " + type + " blue\n";
+}
+
+std::vector<Case> colours_of_wide_integers() {
+  const auto file = [&](const std::string& type, const std::array<std::string, 4>& vertices) {
+    return PlyRows{.vertex_properties = colours_as(type), .vertices = vertices}.file();
   };
-  return {{.situation = "up to 255",
-           .file = file({"255 0 0", "0 255 0", "0 0 255", "200 200 0"}),
-           .colours = kFourCases},
-          {.situation = "up to 65535",
-           .file = file({"65535 0 0", "0 65535 0", "0 0 65535", "51400 51400 0"}),
-           .colours = kFourCases},
-          {.situation = "some up to 255",
-           .file = file({"65535 0 0", "0 65535 0", "0 0 65535", "255 0 0"}),
-           .colours = {kRedCase, kGreenCase, kBlueCase, {1, 0, 0}}}};
+  const auto with_faces = [&](const std::string& type, const std::string& colour) {
+    return PlyRows{.face_properties = colours_as(type), .faces = {colour, colour, colour, colour}}
+        .file();
+  };
+  const std::vector<Colour> ochre(4, kOchreCase);
+  const std::array<std::string, 4> up_to_255{"255 0 0", "0 255 0", "0 0 255", "200 200 0"},
+      up_to_65535{"65535 0 0", "0 65535 0", "0 0 65535", "51400 51400 0"};
+  std::vector<Case> cases{
+      {.situation = "some up to 255",
+       .file = file("ushort", {"65535 0 0", "0 65535 0", "0 0 65535", "255 0 0"}),
+       .colours = {kRedCase, kGreenCase, kBlueCase, {1, 0, 0}}},
+      {.situation = "beyond 16 bits",
+       .file = file("uint", {"65536 0 0", "0 65535 0", "0 0 65535", "51400 51400 0"}),
+       .colours = kFourCases,
+       .said = "1 colour value above 1 clipped to 1"},
+      {.situation = "faces up to 255 with full opacity",
+       .file =
+           PlyRows{.face_properties = colours_as("ushort") + "property ushort alpha\n",
+                   .faces = {"200 200 0 255", "200 200 0 255", "200 200 0 255", "200 200 0 255"}}
+               .file(),
+       .colours = std::vector(4, kOchreCase)}};
+  for (const std::string type : {"ushort", "int", "uint", "int64"}) {
+    const auto add = [&](const std::string& situation, const std::string& text,
+                         const std::vector<Colour>& colours) {
+      cases.push_back({.situation = type + situation, .file = text, .colours = colours});
+    };
+    add(" up to 255", file(type, up_to_255), kFourCases);
+    add(" up to 65535", file(type, up_to_65535), kFourCases);
+    add(" of faces up to 255", with_faces(type, "200 200 0"), ochre);
+    add(" of faces up to 65535", with_faces(type, "51400 51400 0"), ochre);
+  }
+  return cases;
 }
 
 std::vector<Case> names_in_capitals() {
@@ -240,6 +290,13 @@ std::vector<Case> names_in_capitals() {
     cases.push_back({.situation = names, .file = rows.file(), .colours = kFourCases});
   }
   return cases;
+}
+
+TEST(PlyCases, TheFirstLineMayHaveCapitalsAndBlanks) {
+  const std::string rest = PlyRows{.comment = "comment unit mm\n"}.file().substr(3);
+  for (const std::string first : {"PLY", "Ply", "ply ", "ply\t ", "ply \r"})
+    expect_case({.situation = first, .file = first + rest, .unit = "mm"});
+  EXPECT_THAT(refusal("plywood" + rest), HasSubstr("not a mesh file"));
 }
 
 std::vector<Case> values_at_vertices() {
@@ -276,11 +333,14 @@ TEST(PlyCases, DecimalCommasAreNamed) {
 }  // namespace
 
 std::vector<testing::FileKind> testing::ply_kinds() {
-  return {
-      {"float255.ply", colours_as_floats()},   {"face_colour.ply", face_colours()},
-      {"int64.ply", integers_of_64_bits()},    {"units_in_world.ply", comments_without_a_unit()},
-      {"ushort255.ply", colours_of_16_bits()}, {"capitals.ply", names_in_capitals()},
-      {"quality.ply", values_at_vertices()}};
+  return {{"float255.ply", colours_as_floats()},
+          {"face_colour.ply", face_colours()},
+          {"int64.ply", integers_of_64_bits()},
+          {"units_in_world.ply", comments_without_a_unit()},
+          {"ushort255.ply", colours_of_wide_integers()},
+          {"capitals.ply", names_in_capitals()},
+          {"quality.ply", values_at_vertices()},
+          {"elements.ply", other_elements()}};
 }
 
 }  // namespace vitrine

@@ -16,6 +16,7 @@ using vitrine::testing::expect_case;
 using vitrine::testing::kBlueCase;
 using vitrine::testing::kGreenCase;
 using vitrine::testing::kRedCase;
+using vitrine::testing::kWhiteCase;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 using vitrine::testing::tetrahedron;
@@ -28,6 +29,13 @@ std::string binary_stl(std::uint32_t count, const std::string& header = "binary"
   file.replace(0, 84, header + std::string(80 - header.size(), '\0') + bytes_of({count}));
   for (std::size_t f = 0; f < attributes.size(); ++f)
     file.replace(84 + 50 * f + 48, 2, bytes_of({attributes[f]}));
+  return file;
+}
+
+// Returns the binary STL `file` with the normal (0, 0, z) in all four facets.
+std::string with_normals(std::string file, float z) {
+  for (std::size_t f = 0; f < 4; ++f)
+    file.replace(84 + 50 * f, 12, bytes_of<float>({0, 0, z}));
   return file;
 }
 
@@ -59,14 +67,41 @@ std::vector<Case> counts_of_facets() {
            .said = "100 bytes after the counted facets are no facets"},
           {.situation = "a text after the facets",
            .file = binary_stl(4) + std::string(60, 'q'),
-           .said = "60 bytes after the counted facets are no facets"}};
+           .said = "60 bytes after the counted facets are no facets"},
+          {.situation = "count too small and long normals",
+           .file = with_normals(binary_stl(2), 25),
+           .said = "4 facets read by the file's size, though its header counts 2; "},
+          {.situation = "count too small and infinite normals",
+           .file = with_normals(binary_stl(2), testing::kInfinity),
+           .said = "header counts 2; "},
+          {.situation = "count 0 and long normals",
+           .file = with_normals(binary_stl(0), 25),
+           .said = "header counts 0; "},
+          {.situation = "all ones and long normals",
+           .file = with_normals(binary_stl(~0u), 25),
+           .said = "header counts 4294967295; "}};
 }
 
-TEST(StlCases, ACredibleCountBeyondTheFileMeansThatItIsCutShort) {
-  for (const std::uint32_t count : {5U, 9U, 500'000'000U})
-    EXPECT_EQ(refusal(binary_stl(count)), "the STL file is cut short: only 4 of " +
-                                              std::to_string(count) +
-                                              " triangles are there; copy it again");
+std::vector<Case> files_cut_short() {
+  const std::string whole = binary_stl(4);
+  return {{.situation = "count too large",
+           .file = binary_stl(9),
+           .said = "4 facets read by the file's size, though its header counts 9; the file may be "
+                   "cut short: compare the model with its source"},
+          {.situation = "the largest credible count",
+           .file = binary_stl(500'000'000),
+           .said = "header counts 500000000; the file may be cut short: "},
+          {.situation = "the last byte is missing",
+           .file = whole.substr(0, whole.size() - 1),
+           .faces = 3,
+           .said = "3 facets read by the file's size, and 49 bytes after them not, though its "
+                   "header counts 4; the file may be cut short: "},
+          {.situation = "solid in the header",
+           .file = binary_stl(9, "solid x"),
+           .said = "header counts 9; "},
+          {.situation = "numbers that are no unit normals",
+           .file = with_normals(binary_stl(9), 25),
+           .refused = "the STL file is cut short: only 4 of 9 triangles are there; copy it again"}};
 }
 
 // Text that is read as binary facets gives plausible small floats.
@@ -83,26 +118,35 @@ constexpr std::uint16_t kMagicsRed = 0x001F, kMagicsGreen = 0x03E0, kMagicsDefau
 
 std::vector<Case> colours_of_facets() {
   const std::string green = "COLOR=" + bytes_of<std::uint8_t>({0, 255, 0, 255});
-  return {{.situation = "VisCAM, one colour",
-           .file = binary_stl(4, "x", std::vector(4, kVisCamBlue)),
-           .colours = std::vector(4, kBlueCase)},
-          {.situation = "VisCAM, one facet coloured",
-           .file = binary_stl(4, "x", {kVisCamRed}),
-           .colours = {kRedCase, kRedCase, kRedCase, {255, 255, 255}}},
-          {.situation = "VisCAM, two colours",
-           .file = binary_stl(4, "x", {kVisCamRed, kVisCamBlue}),
-           .colours = {{188, 0, 188}, kRedCase, {188, 0, 188}, kBlueCase},
-           .said = "colours of 2 faces averaged at the vertices"},
-          {.situation = "Magics",
-           .file = binary_stl(4, green, std::vector(4, kMagicsRed)),
-           .colours = std::vector(4, kRedCase)},
-          {.situation = "Magics, the object's colour",
-           .file = binary_stl(4, "x " + green,
-                              {kMagicsDefault, kMagicsGreen, kMagicsDefault, kMagicsDefault}),
-           .colours = std::vector(4, kGreenCase)},
-          {.situation = "Magics, without facet colours",
-           .file = binary_stl(4, green),
-           .colours = std::vector(4, kGreenCase)}};
+  return {
+      {.situation = "VisCAM, one colour",
+       .file = binary_stl(4, "x", std::vector(4, kVisCamBlue)),
+       .colours = std::vector(4, kBlueCase)},
+      {.situation = "VisCAM, one facet coloured",
+       .file = binary_stl(4, "x", {kVisCamRed}),
+       .colours = {kRedCase, kRedCase, kRedCase, {255, 255, 255}}},
+      {.situation = "VisCAM, two colours",
+       .file = binary_stl(4, "x", {kVisCamRed, kVisCamBlue}),
+       .colours = {{188, 0, 188}, kRedCase, {188, 0, 188}, kBlueCase},
+       .said = "colours of 2 faces averaged at the vertices"},
+      {.situation = "Magics",
+       .file = binary_stl(4, green, std::vector(4, kMagicsRed)),
+       .colours = std::vector(4, kRedCase)},
+      {.situation = "Magics, the object's colour",
+       .file = binary_stl(4, "x " + green,
+                          {kMagicsDefault, kMagicsGreen, kMagicsDefault, kMagicsDefault}),
+       .colours = std::vector(4, kGreenCase)},
+      {.situation = "Magics, without facet colours",
+       .file = binary_stl(4, green),
+       .colours = std::vector(4, kGreenCase)},
+      {.situation = "no flag and no object's colour",
+       .file = binary_stl(4, "x", {kMagicsRed, 0, kMagicsGreen}),
+       .said = "attribute bytes of 2 facets not carried: nothing in the file says that they are "
+               "colours; to keep colours, export PLY or OBJ"},
+      {.situation = "VisCAM, a facet without the flag",
+       .file = binary_stl(4, "x", {kVisCamRed, kMagicsGreen}),
+       .colours = {kRedCase, kRedCase, kRedCase, kWhiteCase},
+       .said = "attribute bytes of 1 facet not carried"}};
 }
 
 // Writes a tetrahedron as text STL with the given spelling of each statement.
@@ -123,6 +167,20 @@ struct Spelling {
   }
 };
 
+std::string with_fortran_numbers(std::string file) {
+  for (std::size_t at = 0; (at = file.find("vertex 1 0", at)) != file.npos;)
+    file.replace(at, 10, "vertex 1.0D+00 0.0d0");
+  return file;
+}
+
+TEST(StlCases, AnExponentOfFortranCounts) {
+  std::string file = Spelling{}.file();
+  for (std::size_t at = 0; (at = file.find("vertex 1 0", at)) != file.npos;)
+    file.replace(at, 10, "vertex 2.5D+01 -0.5d-1");
+  EXPECT_EQ(read_text(file).mesh.positions,
+            (std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}, {25, -0.05, 0}, {0, 0, 1}}));
+}
+
 std::vector<Case> spellings() {
   return {{.situation = "end loop", .file = Spelling{.loop_end = "end loop"}.file()},
           {.situation = "END FACET", .file = Spelling{.facet_end = "END FACET"}.file()},
@@ -132,6 +190,7 @@ std::vector<Case> spellings() {
            .file = Spelling{.solid_end = "endsolidNAME"}.file()},
           {.situation = "name after solid without a blank",
            .file = Spelling{.solid = "solidNAME"}.file()},
+          {.situation = "exponents of Fortran", .file = with_fortran_numbers(Spelling{}.file())},
           {.situation = "sOLID", .file = Spelling{.solid = "sOLID"}.file()},
           {.situation = "colour after endfacet",
            .file = Spelling{.facet_end = "endfacet 1.0 0.0 0.0"}.file(),
@@ -171,6 +230,39 @@ TEST(StlCases, DecimalCommasAreNamed) {
               HasSubstr("STL line 4: numbers have decimal commas"));
 }
 
+std::vector<Case> texts_without_an_end() {
+  const std::string whole = Spelling{}.file(), end = Spelling{}.solid_end + "\n";
+  const std::string solid = whole.substr(0, whole.size() - end.size());
+  const auto cut_before = [&](const std::string& word) {
+    return whole.substr(0, whole.rfind(word));
+  };
+  const std::string said =
+      " read from a text without endsolid at its end; the file may be cut "
+      "short: compare the model with its source";
+  return {
+      {.situation = "no endsolid", .file = solid, .said = "4 facets" + said},
+      {.situation = "no line feed", .file = cut_before("\nendsolid"), .said = "4 facets" + said},
+      {.situation = "within a word",
+       .file = cut_before("loop\nendfacet"),
+       .faces = 3,
+       .said = "3 facets" + said},
+      {.situation = "within a corner",
+       .file = cut_before(" 0 1\nendloop"),
+       .faces = 3,
+       .said = "3 facets" + said},
+      {.situation = "within a number",
+       .file = cut_before("0 1\nendloop") + "-",
+       .faces = 3,
+       .said = "3 facets" + said},
+      {.situation = "within the second solid",
+       .file = whole + solid,
+       .faces = 8,
+       .said = "8 facets" + said},
+      {.situation = "before the first facet ends",
+       .file = whole.substr(0, whole.find("endloop")),
+       .refused = "the STL file has no endsolid; it is cut short, copy it again"}};
+}
+
 std::vector<Case> solids_on_one_line() {
   const auto on_one_line = [](std::string text) {
     std::ranges::replace(text, '\n', ' ');
@@ -191,6 +283,8 @@ std::vector<testing::FileKind> testing::stl_kinds() {
           {"qnan_normal.stl", normals_without_numbers()},
           {"colour.stl", colours_of_facets()},
           {"comma.stl", decimal_commas()},
+          {"cut_short.stl", files_cut_short()},
+          {"no_endsolid.stl", texts_without_an_end()},
           {"one_line.stl", solids_on_one_line()}};
 }
 

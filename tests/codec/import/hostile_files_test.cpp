@@ -120,7 +120,8 @@ std::string densest_textured_ply() {
 
 // The number in each row is the allowed memory as a multiple of the file's size. It was measured
 // and rounded up. GLB and glTF files need memory for their JSON tree, and text PLY files for their
-// header. Other formats need memory for repair if a change gives an edge many faces.
+// header. Other formats need memory for repair if a change gives an edge many faces, or for the
+// names of unknown statements if a change makes the file an OBJ.
 //
 // Files in which each number is a single byte need the most memory per byte. In memory, numbers are
 // doubles or have 32 bits, and repair turns corners into vertices.
@@ -146,11 +147,11 @@ std::vector<IntactFile> intact_files() {
        "ply\nformat ascii 1.0\nelement vertex 00000003\nproperty float x\nproperty float y\n"
        "property float z\nelement face 00000001\nproperty list uchar int "
        "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-       2},
+       3},
       {"text STL",
        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
        "endloop\nendfacet\nendsolid a\n",
-       1},
+       2},
       {"OFF", "COFF\n00000003 00000001 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n00000003 0 1 2\n",
        1},
       {"DAE", textured_dae("p").text(), 4, picture_and_library()},

@@ -181,6 +181,30 @@ TEST(Read3mf, ThreeMfInsideAPackageIsFoundByItsName) {
   EXPECT_THAT(refusal(zip_of({{"a.3mf", inner}, {"b.3mf", inner}})), HasSubstr("2 models"));
 }
 
+TEST(Read3mf, TheModelPartMayHaveAnyNameIfItIsTheOnlyOne) {
+  const auto named = [](const std::string& name, const FilesToPack& more) {
+    FilesToPack files{{"[Content_Types].xml", "<?xml version=\"1.0\"?><Types/>"},
+                      {name, part(object("1", kTriangle), kItem)}};
+    files.insert(files.end(), more.begin(), more.end());
+    return zip_of(files);
+  };
+  for (const std::string name : {"3D/part_1.model", "Models/bust.model"}) {
+    const ImportedMesh read = read_text(named(name, {{"a.model", "no part of 3MF"}}));
+    EXPECT_THAT(read.mesh.faces, SizeIs(1)) << name;
+    EXPECT_EQ(read.unit, "mm") << name;
+  }
+  EXPECT_THAT(refusal(named("3D/a.model", {{"3D/b.model", part(object("1", kTriangle), kItem)}})),
+              HasSubstr("Word, Excel or PowerPoint"));
+}
+
+TEST(Read3mf, DecimalCommasAreRead) {
+  std::string mesh = kTriangle;
+  mesh.replace(mesh.find("z=\"2\""), 5, "z=\"2,5\"");
+  const ImportedMesh read = read_text(package(part(
+      object("1", mesh), R"(<item objectid="1" transform="1,0 0,0 0 0 1 0 0 0 1 0,5 0 0"/>)")));
+  EXPECT_EQ(read.mesh.positions, (std::vector<Vec3>{{0.5, 0, 0}, {1.5, 0, 0}, {0.5, 2.5, 0}}));
+}
+
 TEST(Read3mf, FaultsAreNamed) {
   const auto fault = [](const std::string& resources) {
     return refusal(package(part(resources, kItem)));

@@ -52,6 +52,23 @@ TEST(ReadDae, UnitAndUpAxisAreKept) {
   EXPECT_EQ(asset("-1", "Y_UP").unit, "m");
 }
 
+TEST(ReadDae, ALongCommentAndAPrefixOfTheNamespaceAreRead) {
+  const std::string text = DaeFile{.asset = "<unit name=\"u\" meter=\"0.01\"/>"}.text();
+  const std::size_t root = text.find("<COLLADA");
+  const std::string commented = text.substr(0, root) + "<!-- a <b> " + std::string(5000, '-') +
+                                " --><!DOCTYPE x>\n" + text.substr(root);
+  std::string prefixed = text;
+  for (std::size_t at = root; (at = prefixed.find('<', at)) != prefixed.npos; ++at)
+    prefixed.insert(at + (prefixed[at + 1] == '/' ? 2 : 1), "c:");
+  for (const std::string& file : {commented, prefixed}) {
+    const auto read = read_text(file);
+    EXPECT_EQ(read.mesh.faces, kDaeFaces);
+    EXPECT_EQ(read.unit, "cm");
+    EXPECT_THAT(read.repairs, IsEmpty());
+  }
+  EXPECT_THAT(refusal("<?xml version=\"1.0\"?><!-- <COLLADA> --><a/>"), HasSubstr("an XML file"));
+}
+
 TEST(ReadDae, AStatedUnitOverridesTheFile) {
   const std::string text = DaeFile{}.text();
   const auto read = read_mesh(as_bytes(text), {.unit = "mm"});

@@ -93,7 +93,7 @@ TEST(ReadGltf, AMissingBufferWithAPictureIsNamedToo) {
 TEST(ReadGltf, ABufferThatIsTooShortOrHasNoDataIsRefused) {
   GlbBuilder builder = skinned();
   EXPECT_THAT(read_beside(builder.text_file("b.bin"), {{"b.bin", "1234"}}).error().message,
-              HasSubstr("glTF buffer view 0 lies beyond the end of its buffer"));
+              HasSubstr("glTF accessor 0 does not fit its buffer view"));
   builder.document["bufferViews"][0]["buffer"] = 1;
   EXPECT_THAT(
       read_beside(builder.text_file("b.bin"), {{"b.bin", builder.binary()}}).error().message,

@@ -111,7 +111,7 @@ TEST(ReadTexturedGlb, APictureThatCannotBeReadIsNamedAndTheMeshStays) {
 TEST(ReadTexturedGlb, APictureInAnUnreadableViewIsNamedWithTheReason) {
   const std::string fault = "1 texture map, image 0, not carried: it cannot be read: glTF buffer ";
   GlbBuilder beyond = textured(red_and_blue());
-  beyond.document["bufferViews"][2]["byteLength"] = 1'000'000;
+  beyond.document["bufferViews"][2]["byteOffset"] = 1'000'000;
   EXPECT_EQ(fault_of(beyond), fault +
                                   "view 2 lies beyond the end of its buffer; the file is "
                                   "damaged, export it again");
