@@ -56,7 +56,7 @@ class CodecAlone(unittest.TestCase):
 
     def test_it_is_built_tested_installed_and_found(self):
         bare = Path(os.environ["VITRINE_CODEC_ROOT"])
-        self.assertTrue(bare.is_dir(), f"{bare} is missing: run ./deploy/setup test")
+        self.assertTrue(bare.is_dir(), f"{bare} is missing: run ./deploy/setup full")
         with tempfile.TemporaryDirectory() as state:
             result = subprocess.run(
                 ["unshare", "--mount", "--net", "bash", "-c", BUILD], stdin=subprocess.DEVNULL, capture_output=True, text=True,
