@@ -20,7 +20,7 @@ const kUnusedShaders = [
 const kUnusedShader = new RegExp(`(${kUnusedShaders.join("|")})\\.glsl\\.js$`);
 const kNoShader = `export const vertex = "", fragment = ""; export default "";`;
 
-/** Features that no material of the pages has: those of MeshPhysicalMaterial, of animated and instanced meshes, shadow maps and fog. */
+/** Features of three.js's shaders that no page uses, such as those of MeshPhysicalMaterial, animation, instancing, shadow maps and fog. */
 const kUnusedFeatures = [
   "ALPHAHASH", "ALPHAMAP", "ANISOTROPY", "BATCHING", "BUMPMAP", "CLEARCOAT", "DISPERSION", "DISPLACEMENTMAP", "FOG", "GRADIENTMAP", "INSTANCING",
   "IRIDESCENCE", "LIGHTMAP", "LIGHT_PROBES", "LOGDEPTHBUF", "MATCAP", "MORPH", "REVERSEDEPTHBUF", "SHADOWMAP", "SHEEN", "SKINNING", "SPECULAR",

@@ -15,8 +15,9 @@ bool meets_box(const TriangleBvh::Node& box, const Vec3& origin, const Vec3& inv
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
     const double a = (box.low[k] - from[k]) * per[k], b = (box.high[k] - from[k]) * per[k];
-    // std::max() and std::min() ignore a NaN here. A NaN occurs if the ray lies within a side of
-    // the box.
+    // If the ray is parallel to a side of the box and lies in it, 0 times infinity gives a NaN. In
+    // the low side, the NaN changes nothing. In the high side, the ray misses the box, and with it
+    // only triangles that it would graze.
     enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
   }
   return enter <= leave;

@@ -38,8 +38,8 @@ std::vector<ControlRequest> ftdi_set_up(int baud) {
           vendor_request(9, 1, 0)};  // sets the latency to 1 ms
 }
 
-// Returns the divisor of CH340 and CH341 for a baud rate. The divisor's high byte is the start of a
-// counter that runs up to 2^16. The divisor's low bits, p, select the prescaler 8^(3 - p).
+// Returns the divisor register of CH340 and CH341 for a baud rate. Its high byte is the upper byte
+// of the start value of a 16-bit counter. Its two lowest bits, p, select the prescaler 8^(3 - p).
 std::uint16_t ch34x_divisor(int baud) {
   std::uint32_t factor = 1'532'620'800u / static_cast<std::uint32_t>(baud);
   std::uint32_t prescaler = 3;

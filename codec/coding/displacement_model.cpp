@@ -9,7 +9,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kRidge = 4;  // weight of the initial values, as a number of splits
+// Weight of the prior of the ridge regression, which is the trained weights.
+constexpr double kRidge = 4;
 constexpr std::uint32_t kSolveEvery = 16;
 constexpr double kMemory = 600;  // number of splits after which older evidence fades
 

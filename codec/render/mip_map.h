@@ -43,7 +43,8 @@ class MipMap {
   Texel interpolated(std::size_t level, const TextureCoordinates& uv, Wrap wrap_u,
                      Wrap wrap_v) const;
 
-  const ByteValues* colours_;           // maps bytes of red, green and blue to values
+  // Maps a byte of red, green or blue to 0 to 1, in linear light if the picture is sRGB.
+  const ByteValues* colours_;
   std::vector<Picture> smaller_;        // levels 1 and higher
   std::vector<const Picture*> levels_;  // pointers to all levels
 };

@@ -277,8 +277,8 @@ class Daemon {
       if (const auto kept = installation_.jobs->set_notified(id); !kept)
         events_.event(Severity::kError, kept.error().message);
     };
-    // Another daemon may have newer settings that allow the webhook, and may call it. Therefore
-    // waits for kUnwanted before dropping the webhook.
+    // Drops a webhook that these settings do not allow only when its job ended kUnwanted ago. Until
+    // then, another daemon with newer settings may call it.
     const bool is_old = now_in_milliseconds() - ended.ended > kUnwanted.count();
     if (!webhooks_.allows(ended.webhook) && is_old) {
       events_.event(Severity::kWarning,

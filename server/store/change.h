@@ -6,7 +6,8 @@
 
 namespace vitrine::server {
 
-// Returns the record as visitors without a token may see it: with the public part as its file.
+// Returns the record that visitors without a token may see. If the model has a public part, the
+// file, its sizes and its counts are those of the public part.
 ModelRecord public_view(ModelRecord record);
 
 // Replaces the file of the model `as.id` by `pmesh`, and its repairs by `as.repairs`. Also replaces

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds and runs programs from Debian's packages. Tests that need a missing program are skipped or
-// fail.
+// Finds and runs programs from Debian's packages. Tests that need a missing program are skipped; they
+// fail if VITRINE_NO_SKIPS is set.
 import { execFileSync, spawnSync } from "node:child_process";
 
 /**

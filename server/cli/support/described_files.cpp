@@ -105,7 +105,8 @@ class DescriptionSheet {
     return {};
   }
 
-  // Replaces the texts and options that the flags gave by those of the row.
+  // Overrides the texts and options from the flags with those of the row. Columns that are empty in
+  // the row change nothing.
   CommandOutcome describe(const SheetRow& row, DescribedFile& file) const {
     for (const auto& [column, text] : row.texts) {
       if (column == kUnit) {

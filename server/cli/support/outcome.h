@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The result of a command. Its exit code is 0 for success, 1 for failure, 2 for wrong usage, or
-// kNobodyReads.
+// kNobodyReads if the reader of stdout has closed the pipe.
 #pragma once
 
 #include <csignal>

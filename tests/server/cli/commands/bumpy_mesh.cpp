@@ -8,8 +8,8 @@
 
 namespace vitrine::test {
 
-// Returns a torus of n by n quads with waves, so that it has about `faces` triangles. If `open` is
-// true, the last ring of quads is missing.
+// Returns the PLY file of a wavy torus of about `faces` triangles. If `open` is true, the last ring
+// is missing.
 std::string bumpy_ply(int faces, bool open, bool coloured) {
   const int n = std::max(4, static_cast<int>(std::sqrt(faces / 2.0)));
   const int rings = open ? n - 1 : n;
