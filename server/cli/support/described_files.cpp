@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "codec/core/printable.h"
@@ -51,10 +52,20 @@ tl::expected<DescribedFile, Fault> by_flags(const Arguments& arguments, const st
                        .states_reading = arguments.has("--unit") || arguments.has("--up")};
 }
 
+// Returns the path without "." and a slash at the end, so that one file has one name.
+std::string normal(const std::string& path) {
+  std::string name = fs::path(path).lexically_normal().string();
+  if (name.size() > 1 && name.ends_with('/')) name.pop_back();
+  return name;
+}
+
 class DescriptionSheet {
  public:
   DescriptionSheet(std::string name, std::vector<SheetRow> rows)
-      : name_(std::move(name)), rows_(std::move(rows)) {}
+      : name_(std::move(name)), rows_(std::move(rows)) {
+    for (const SheetRow& row : rows_)
+      by_name_.emplace(normal(row.text(kFile)), &row);
+  }
 
   // Appends the file `in` to `files`. If `in` is a folder that no row names, appends the files of
   // all rows, which are in that folder.
@@ -85,14 +96,15 @@ class DescriptionSheet {
 
  private:
   // Returns the row of the file `in`, or null if there is none. The row names the whole path or the
-  // end of the path.
+  // end of the path. If several rows do, returns the one with the longest name.
   const SheetRow* row_of(const std::string& in) const {
-    const std::string path = (fs::path("/") / fs::path(in).lexically_normal()).string();
-    const auto names = [&](const SheetRow& row) {
-      return path.ends_with(fmt::format("/{}", row.text(kFile)));
-    };
-    const auto found = std::ranges::find_if(rows_, names);
-    return found == rows_.end() ? nullptr : &*found;
+    const std::string whole = normal(in);
+    for (std::string_view path = whole;;) {
+      if (const auto found = by_name_.find(path); found != by_name_.end()) return found->second;
+      const std::size_t slash = path.find('/');
+      if (slash == path.npos) return nullptr;
+      path.remove_prefix(slash + 1);
+    }
   }
 
   CommandOutcome add_row(const Arguments& arguments, const SheetRow& row, const std::string& in,
@@ -100,7 +112,8 @@ class DescriptionSheet {
     auto file = by_flags(arguments, in);
     if (!file) return tl::unexpected(file.error());
     if (auto described = describe(row, *file); !described) return described;
-    used_.insert(row.line);
+    if (!used_.insert(row.line).second)
+      return fault(row, "two files have this name; write more of their paths in the sheet");
     files.push_back(std::move(*file));
     return {};
   }
@@ -140,6 +153,7 @@ class DescriptionSheet {
 
   const std::string name_;
   const std::vector<SheetRow> rows_;
+  std::map<std::string, const SheetRow*, std::less<>> by_name_;
   std::set<std::size_t> used_;  // lines of the rows whose files are published
 };
 
@@ -155,6 +169,8 @@ tl::expected<std::vector<DescribedFile>, Fault> described_by_sheet(const Argumen
   std::vector<DescribedFile> files;
   for (const std::string& in : arguments.operands())
     if (auto added = sheet.add(arguments, in, files); !added) return tl::unexpected(added.error());
+  if (files.empty())
+    return failed(fmt::format("{} has no rows below its first line; add one for each file", path));
   sheet.note_unused();
   return files;
 }

@@ -33,7 +33,7 @@ std::string lower_case(std::string_view text) {
 
 // Returns the separator that occurs most often in the header, a comma if none occurs.
 char separator_of(std::string_view csv) {
-  const std::string_view header = csv.substr(0, csv.find('\n'));
+  const std::string_view header = csv.substr(0, csv.find_first_of("\r\n"));
   const auto count = [&](char c) { return std::ranges::count(header, c); };
   return std::max({',', ';', '\t'}, [&](char a, char b) { return count(a) < count(b); });
 }
@@ -50,13 +50,14 @@ class CsvReader {
   std::optional<Cells> row() {
     Cells cells;
     for (;;) {
+      skip_blanks();
       auto cell = starts_with('"') ? quoted() : plain();
       if (!cell) return std::nullopt;
       cells.push_back(std::move(*cell));
       if (!skip(separator_)) break;
     }
-    skip('\r');
-    if (skip('\n')) ++line_;
+    const bool has_return = skip('\r');
+    if (skip('\n') || has_return) ++line_;
     return cells;
   }
 
@@ -66,6 +67,10 @@ class CsvReader {
     if (!starts_with(c)) return false;
     rest_.remove_prefix(1);
     return true;
+  }
+  void skip_blanks() {
+    while (skip(' ') || (separator_ != '\t' && skip('\t'))) {
+    }
   }
   std::string take(std::size_t length) {
     std::string text(rest_.substr(0, length));

@@ -378,11 +378,18 @@ TEST_F(VitrineCommand, TheRowsOfASheetNameFilesOfAFolder) {
   empty_folder("scans/hall");
   write("scans/hall/a.ply", bumpy_ply(500));
   write("scans/b.ply", bumpy_ply(800));
-  const std::string sheet = write("sheet.csv", "file,title,period\nhall/a.ply,A,1650\nb.ply,B,\n");
-  const ProgramResult result = vitrine({"publish", folder, "--metadata", sheet, "--data", data});
+  write("scans/a.ply", bumpy_ply(900));
+  const std::string sheet =
+      write("sheet.csv", "file,title,period\na.ply,Other,\n./hall/a.ply,A,1650\nb.ply,B,\n");
+  const ProgramResult one =
+      vitrine({"publish", path("scans/hall/a.ply"), "--metadata", sheet, "--data", data});
+  EXPECT_EQ(one.exit_code, 0) << one.errors;
+  const ProgramResult result =
+      vitrine({"publish", folder + "/", "--metadata", sheet, "--data", data});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   const auto installation = open_installation({.folder = data}).value();
-  const auto id = ModelId::parse(result.output.substr(0, result.output.find('\n')));
+  EXPECT_EQ(std::ranges::count(result.output, '\n'), 3);
+  const auto id = ModelId::parse(one.output.substr(0, one.output.find('\n')));
   const auto first = installation.catalogue->find(id.value()).value();
   EXPECT_EQ(first->title, "A");
   EXPECT_EQ(first->more.at("period"), "1650");
@@ -398,10 +405,21 @@ TEST_F(VitrineCommand, AWrongSheetIsRefusedBeforeAnythingIsPublished) {
     EXPECT_THAT(result.errors, HasSubstr(text));
   };
   refused("file\na.ply\n", "has no row for '");
+  refused("file\n./a.ply\nply\n", "has no row for '");
+  refused("file,title\n", "has no row for '");
   refused("file,unit\na.ply,mm\nb.ply,feet\n", "line 3: unit is not mm, cm, m or in");
   refused("file,up\na.ply,y\nb.ply,x\n", "line 3: up is not y or z");
   refused("file,doi\na.ply,\nb.ply,none\n", "line 3: the doi is not ");
   refused("file,titel\n", "did you mean title?");
+  const auto empty =
+      vitrine({"publish", data, "--metadata", write("sheet.csv", "file\n"), "--data", data});
+  EXPECT_THAT(empty.errors, HasSubstr("sheet.csv has no rows below its first line"));
+  empty_folder("old");
+  const std::string other = write("old/a.ply", bumpy_ply(500));
+  const auto twice = vitrine(
+      {"publish", a, other, "--metadata", write("sheet.csv", "file\na.ply\n"), "--data", data});
+  expect_fault(twice, 1);
+  EXPECT_THAT(twice.errors, HasSubstr("line 2: two files have this name"));
   expect_fault(vitrine({"publish", a, b, "--title", "T", "--data", data}), 2);
   EXPECT_TRUE(std::filesystem::is_empty(data));
 }

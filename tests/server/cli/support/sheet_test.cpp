@@ -56,6 +56,14 @@ TEST(Sheet, SeparatorByteOrderMarkAndCaseAreThoseOfAnySpreadsheet) {
   }
 }
 
+TEST(Sheet, BlanksMayPrecedeAQuotationMarkAndLinesMayEndInReturns) {
+  const auto rows = read("file, title\ra.ply, \"Bust, small\" \rb.ply,\t B\r").value();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].text("title"), "Bust, small");
+  EXPECT_EQ(rows[1].text("title"), "B");
+  EXPECT_EQ(rows[1].line, 3u);
+}
+
 TEST(Sheet, EmptyLinesAndUnnamedEmptyColumnsAreLeftOut) {
   const auto rows = read("file,title,,\n,,,\n\na.ply,A,,\n").value();
   ASSERT_EQ(rows.size(), 1u);
