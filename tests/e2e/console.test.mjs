@@ -445,6 +445,31 @@ test("unsaved texts are not lost, and those of two operators are both kept", asy
   await desk.close();
 });
 
+test("a save that is repeated after a change elsewhere shows its error", async () => {
+  const id = (await daemon.publish(scan, "Niobe")).split("/").pop();
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
+  await desk.go(`models/${id}`, "Niobe");
+  await page.getByLabel("DOI", { exact: true }).fill("10.5281/zenodo.1");
+  await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify({ presentation: { scale: 2 } }) });
+  const statuses = [], fault = { detail: "the DOI is taken", errors: [{ parameter: "metadata.doi", detail: "a new DOI" }] };
+  let saves = 0;
+  page.on("response", (response) => response.request().method() === "PATCH" && statuses.push(response.status()));
+  await page.route(`**/api/v1/models/${id}`, (route) =>
+    route.request().method() === "PATCH" && ++saves === 2 ? route.fulfill({ status: 400, json: fault }) : route.fallback());
+  await desk.press("Save");
+  await page.locator("[name=doi][aria-invalid]:focus ~ small", { hasText: "Expected: a new DOI" }).waitFor();
+  const alert = page.getByRole("alert").filter({ hasText: "The DOI is taken" });
+  await alert.waitFor();
+  await desk.press("Save");
+  await desk.says("Saved.");
+  assert.deepEqual(statuses, [412, 400, 200]);
+  await alert.waitFor({ state: "hidden" });
+  assert.equal((await (await asked(`/models/${id}`)).json()).doi, "10.5281/zenodo.1");
+  await asked(`/models/${id}`, { method: "DELETE" });
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
 test("no other site can frame a page of the daemon, by whatever name, but the viewer", async () => {
   for (const path of ["/", "/index.html", "/console", "/console.html", "/docs", "/docs.html", "/scan.html"]) {
     const { headers } = await fetch(daemon.url + path);

@@ -98,22 +98,27 @@ export function field({ name, label, hint, value, type = "text", options, sugges
 export type Values = Record<string, string | number | boolean | null>;
 
 /**
- * Creates a form that passes its values to `act` when submitted. If `act` fails, shows each fault
- * beside its field, and focuses the first of these fields.
+ * Creates a form that passes its values to `act` when submitted. If `act` fails, shows the error with showFaults(), in `alert` below the
+ * buttons.
  */
-export function form(all: HTMLElement[], submit: string, act: (values: Values) => Promise<unknown>, kind = ""): HTMLFormElement {
-  const alert = new Alert(), send = h("button", { type: "submit", class: kind === "inline" ? "" : "primary" }, submit);
+export function form(all: HTMLElement[], submit: string, act: (values: Values) => Promise<unknown>, kind = "", alert = new Alert()): HTMLFormElement {
+  const send = h("button", { type: "submit", class: kind === "inline" ? "" : "primary" }, submit);
   const made = h("form", { class: `form ${kind}` }, ...all, h("div", { class: "actions" }, send), alert.element);
   made.addEventListener("submit", async (event) => {
     event.preventDefault();
     alert.clear();
     for (const control of controls(made)) mark(control, "");
     send.disabled = true;
-    await act(values(made)).catch((error) => alert.show(error, place(error, made)));
+    await act(values(made)).catch((error) => showFaults(error, alert, made));
     send.disabled = false;
-    controls(made).find((control) => control.ariaInvalid === "true")?.focus();
   });
   return made;
+}
+
+/** Shows each fault of an error beside its field in the form `within`, and the rest in `alert`. Focuses the first of these fields. */
+export function showFaults(error: unknown, alert: Alert, within: HTMLFormElement): void {
+  alert.show(error, place(error, within));
+  controls(within).find((control) => control.ariaInvalid === "true")?.focus();
 }
 
 function controls(within: HTMLFormElement): Control[] {

@@ -5,7 +5,7 @@
 import { h } from "../ui/dom.ts";
 import { kLicences, kRightsStatements, rightsLabel } from "../ui/rights.ts";
 import { texts as gallery } from "../ui/texts/index.ts";
-import { field, form, type Values } from "./forms.ts";
+import { Alert, field, form, showFaults, type Values } from "./forms.ts";
 import { Problem } from "./problem.ts";
 import { texts } from "./texts/index.ts";
 import type { ModelRecord } from "./types.ts";
@@ -67,6 +67,7 @@ export class MetadataForm {
   readonly element = h("section", { class: "card" });
   readonly #said = h("p", { role: "status", tabindex: -1 });
   readonly #discard = h("button", { type: "button", onclick: () => this.#discardAll() }, words.discard);
+  readonly #alert = new Alert();
   #form = h("form");
   #model: ModelRecord | undefined;
 
@@ -81,7 +82,8 @@ export class MetadataForm {
     if (draft) rebase(draft, contentsOf(model), own);
     this.#dropIfEmpty();
     this.#said.textContent = "";
-    this.#form = form([...this.#fields(model), this.#said], words.save, (values) => this.#save(values));
+    this.#alert.clear();
+    this.#form = form([...this.#fields(model), this.#said], words.save, (values) => this.#save(values), "", this.#alert);
     this.#form.querySelector(".actions:has([type=submit])")?.append(this.#discard);
     this.element.replaceChildren(h("h2", {}, words.metadata), this.#form);
     this.#tell();
@@ -146,11 +148,20 @@ export class MetadataForm {
     if (this.#model) this.show(this.#model);
   }
 
+  /** Stores the changed fields. Shows an error in the present form, because show() may have replaced the form that was submitted. */
+  async #save(values: Values): Promise<void> {
+    try {
+      await this.#store(values);
+    } catch (error) {
+      showFaults(error, this.#alert, this.#form);
+    }
+  }
+
   /**
    * Stores the changed fields. If somebody else has changed fields meanwhile, names these instead, so that the operator sees them
    * before storing the changes.
    */
-  async #save(values: Values): Promise<void> {
+  async #store(values: Values): Promise<void> {
     const draft = this.#draft;
     if (!draft) return;
     const sent = { ...draft.typed }, names = Object.keys(sent) as Name[];
