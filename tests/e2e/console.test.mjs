@@ -470,6 +470,33 @@ test("a save that is repeated after a change elsewhere shows its error", async (
   await desk.close();
 });
 
+test("what is typed during a save is saved next, and is no conflict with the operator's own texts", async () => {
+  const id = (await daemon.publish(scan, "Eros")).split("/").pop();
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk, save = page.getByRole("button", { name: "Save", exact: true });
+  const field = (label) => page.getByLabel(label, { exact: true });
+  await desk.go(`models/${id}`, "Eros");
+  let proceed;
+  const isHeld = new Promise((resolve) => (proceed = resolve));
+  await page.route(`**/api/v1/models/${id}`, async (route) => {
+    if (route.request().method() === "PATCH") await isHeld;
+    await route.fallback();
+  });
+  await field("Material").fill("marble");
+  await save.click();
+  await field("Creator").fill("Praxiteles");
+  assert.ok(await save.isDisabled(), "one save at a time");
+  proceed();
+  await desk.says("Saved.");
+  assert.equal(await field("Creator").inputValue(), "Praxiteles");
+  await save.click(); // waits until it is enabled
+  await page.getByRole("button", { name: "Discard unsaved texts" }).waitFor({ state: "hidden" });
+  const { material, creator } = await (await asked(`/models/${id}`)).json();
+  assert.deepEqual([material, creator], ["marble", "Praxiteles"]);
+  await asked(`/models/${id}`, { method: "DELETE" });
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
 test("no other site can frame a page of the daemon, by whatever name, but the viewer", async () => {
   for (const path of ["/", "/index.html", "/console", "/console.html", "/docs", "/docs.html", "/scan.html"]) {
     const { headers } = await fetch(daemon.url + path);

@@ -69,6 +69,7 @@ export class MetadataForm {
   readonly #discard = h("button", { type: "button", onclick: () => this.#discardAll() }, words.discard);
   readonly #alert = new Alert();
   #form = h("form");
+  #isSaving = false;
   #model: ModelRecord | undefined;
 
   constructor(private readonly options: MetadataOptions) {
@@ -138,9 +139,10 @@ export class MetadataForm {
     this.#enable();
   }
 
+  /** Enables saving if there are unsaved texts, but not during a save: a second save would send the entity tag that the first one changes. */
   #enable(): void {
     this.#discard.hidden = !this.#draft;
-    (this.#form.querySelector("[type=submit]") as HTMLButtonElement).disabled = !this.#draft;
+    (this.#form.querySelector("[type=submit]") as HTMLButtonElement).disabled = this.#isSaving || !this.#draft;
   }
 
   #discardAll(): void {
@@ -150,10 +152,14 @@ export class MetadataForm {
 
   /** Stores the changed fields. Shows an error in the present form, because show() may have replaced the form that was submitted. */
   async #save(values: Values): Promise<void> {
+    this.#isSaving = true;
     try {
       await this.#store(values);
     } catch (error) {
       showFaults(error, this.#alert, this.#form);
+    } finally {
+      this.#isSaving = false;
+      this.#enable();
     }
   }
 
