@@ -497,6 +497,41 @@ test("what is typed during a save is saved next, and is no conflict with the ope
   await desk.close();
 });
 
+test("unsaved texts end with their model, and when the operator signs out", async () => {
+  const [gone, kept] = [await daemon.publish(scan, "Eris"), await daemon.publish(scan, "Iris")].map((url) => url.split("/").pop());
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk, material = page.getByLabel("Material", { exact: true });
+  const questions = [];
+  page.on("dialog", async (dialog) => {
+    questions.push(dialog.type());
+    await dialog.accept();
+  });
+
+  // A colleague deletes the model.
+  await desk.go(`models/${gone}`, "Eris");
+  await material.fill("marble");
+  await asked(`/models/${gone}`, { method: "DELETE" });
+  await desk.go("jobs", "Jobs");
+  await page.goto(`${daemon.url}/console#/models/${gone}`);
+  await page.getByRole("button", { name: "Try again" }).waitFor();
+  await desk.go("jobs", "Jobs");
+  await page.reload();
+  assert.deepEqual(questions, [], "nothing is unsaved");
+
+  await desk.go(`models/${kept}`, "Iris");
+  await material.fill("bronze");
+  await desk.press("Sign out");
+  await desk.press("Keep");
+  assert.equal(await material.inputValue(), "bronze");
+  await desk.press("Sign out");
+  await desk.press("Discard and sign out");
+  await desk.signIn(admin);
+  await page.getByRole("heading", { level: 1, name: "Iris" }).waitFor();
+  assert.equal(await material.inputValue(), "", "the next operator sees what is stored");
+  await asked(`/models/${kept}`, { method: "DELETE" });
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
 test("no other site can frame a page of the daemon, by whatever name, but the viewer", async () => {
   for (const path of ["/", "/index.html", "/console", "/console.html", "/docs", "/docs.html", "/scan.html"]) {
     const { headers } = await fetch(daemon.url + path);

@@ -5,7 +5,8 @@ import { byId, h } from "../ui/dom.ts";
 import { Api } from "./api.ts";
 import { calibratePage } from "./calibrate.ts";
 import type { ConsolePage, Desk } from "./desk.ts";
-import { Alert } from "./forms.ts";
+import { forgetAllDrafts, isUnsaved } from "./drafts.ts";
+import { Alert, isConfirmed } from "./forms.ts";
 import { jobsPage } from "./jobs.ts";
 import { LiveJobs } from "./live-jobs.ts";
 import { modelPage } from "./model.ts";
@@ -78,6 +79,15 @@ async function isAdmin(api: Api): Promise<boolean> {
   }
 }
 
+/** Resolves when the operator signs out with the button `leave`. If there are unsaved changes, the operator has to confirm. */
+function signedOut(leave: HTMLButtonElement): Promise<undefined> {
+  const { leaveQuestion, leaveExplanation, leaveNow } = texts.signIn;
+  return new Promise((resolve) => leave.addEventListener("click", async () => {
+    if (!isUnsaved() || (await isConfirmed(leaveQuestion, leaveExplanation, leaveNow))) resolve(undefined);
+  }));
+}
+
+/** Shows the console until the operator signs out or the daemon rejects the token. Resolves to the daemon's error, if any. */
 async function work(api: Api): Promise<unknown> {
   const end = new AbortController(), { signal } = end;
   const refused = new Promise((resolve) => (api.onRefused = resolve));
@@ -95,7 +105,7 @@ async function work(api: Api): Promise<unknown> {
   addEventListener("beforeunload", (event) => desk.uploads.isSending && event.preventDefault(), { signal });
   if (!routed(kPages, location.hash)) history.replaceState(null, "", kHome);
   void go(desk);
-  const why = await Promise.race([refused, new Promise((resolve) => leave.addEventListener("click", () => resolve(undefined)))]);
+  const why = await Promise.race([refused, signedOut(leave)]);
   end.abort();
   visit.abort();
   nav.replaceChildren();
@@ -103,6 +113,8 @@ async function work(api: Api): Promise<unknown> {
   watch.element.remove();
   stop.said.remove();
   forgetToken();
+  // After a rejected token, the same operator usually continues with a new one.
+  if (!why) forgetAllDrafts();
   return why;
 }
 

@@ -15,7 +15,15 @@ export function forgetDrafts(model: string): void {
   for (const drafts of all) drafts.delete(model);
 }
 
+/** Discards all unsaved changes, for example before another operator signs in. */
+export function forgetAllDrafts(): void {
+  for (const drafts of all) drafts.clear();
+}
+
+/** Whether there are unsaved changes of any model. */
+export const isUnsaved = (): boolean => all.some(({ size }) => size > 0);
+
 /** Asks the operator before the browser leaves the console, if there are unsaved changes. */
 export function guardDrafts(): void {
-  addEventListener("beforeunload", (event) => all.some(({ size }) => size > 0) && event.preventDefault());
+  addEventListener("beforeunload", (event) => isUnsaved() && event.preventDefault());
 }

@@ -11,6 +11,7 @@ import { levelReport } from "./levels.ts";
 import { MetadataForm, type MetadataDraft } from "./metadata.ts";
 import type { NotePart, NotesDraft, NotesEditor } from "./notes.ts";
 import type { Placed, PresentationEditor } from "./presentation.ts";
+import { Problem } from "./problem.ts";
 import { facts, heading, modelBadge, repairList } from "./parts.ts";
 import { language, texts } from "./texts/index.ts";
 import type { Manifest, ModelRecord } from "./types.ts";
@@ -62,12 +63,22 @@ class ModelEditor {
   }
 
   async open(): Promise<string> {
-    const { view } = this.visit, model = await this.#read();
+    const { view } = this.visit, model = await this.#firstRead();
     view.append(h("header", { class: "heading" }, this.#title, this.#state),
       h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#setting, this.#noting, this.#report, this.#repairs, this.#replacing()), h("div", {}, this.#side, this.#metadata.element)));
     this.#show(model);
     void this.#showLevels();
     return model.title || gallery.untitled;
+  }
+
+  /** Reads the model when the page is opened. Discards the unsaved changes of a model that somebody has deleted: no page shows them. */
+  async #firstRead(): Promise<ModelRecord> {
+    try {
+      return await this.#read();
+    } catch (error) {
+      if (error instanceof Problem && error.status === 404) forgetDrafts(this.id);
+      throw error;
+    }
   }
 
   async #read(): Promise<ModelRecord> {

@@ -18,6 +18,9 @@ export const de: ConsoleTexts = {
     hint: "Ein Administrator erstellt es: vitrine token create --role operator. Es bleibt nur in diesem Tab.",
     enter: "Anmelden",
     leave: "Abmelden",
+    leaveQuestion: "Abmelden und ungespeicherte Änderungen verwerfen?",
+    leaveExplanation: "Einige Änderungen an Modellen sind nicht gespeichert. Sie gehen verloren.",
+    leaveNow: "Verwerfen und abmelden",
   },
   problem: {
     silent: "Der Server antwortet nicht. Bitte das Netz prüfen und es noch einmal versuchen.",

@@ -16,6 +16,9 @@ export const en = {
     hint: "Ask an administrator for one (vitrine token create --role operator). It is kept in this tab only.",
     enter: "Sign in",
     leave: "Sign out",
+    leaveQuestion: "Sign out and discard unsaved changes?",
+    leaveExplanation: "Some changes to models are not saved. They will be lost.",
+    leaveNow: "Discard and sign out",
   },
   problem: {
     silent: "The server does not respond. Check the network, then try again.",
