@@ -65,6 +65,14 @@ test("each change is seen once, and nothing after the page is left", async () =>
   expect(jobs.all[0]?.progress).toBe(0.7);
 });
 
+test("a job that has not changed since the last poll is not seen again", async () => {
+  const source = new Played([job("1", "done")]), jobs = new LiveJobs(source), seen: JobState[] = [];
+  await jobs.watch("1", ({ state }) => seen.push(state), never);
+  source.jobs = [job("1", "done")]; // an equal object, as from the next response
+  await jobs.refresh();
+  expect(seen).toEqual(["done"]);
+});
+
 test("a job that has ended makes room for the next", async () => {
   const source = new Played([job("3", "queued"), job("2", "running"), job("1", "running")]), jobs = new LiveJobs(source);
   await jobs.refresh();

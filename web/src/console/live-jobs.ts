@@ -56,10 +56,12 @@ export class LiveJobs {
   async watch(id: string, see: (job: Job) => void, signal: AbortSignal): Promise<void> {
     this.#watched.unshift(id);
     signal.addEventListener("abort", () => this.#watched.splice(this.#watched.indexOf(id), 1));
-    let seen: Job | undefined;
+    let seen = "";
     this.onChange(() => {
-      const now = this.#jobs.get(id);
-      if (now && now !== seen) see((seen = now));
+      const now = this.#jobs.get(id), state = JSON.stringify(now);
+      if (!now || state === seen) return; // each poll creates the job's object again
+      seen = state;
+      see(now);
     }, signal);
     this.put(await this.source.get<Job>(`/jobs/${id}`, signal));
   }
