@@ -12,6 +12,7 @@ how much memory the daemon used.
 """
 import collections
 import json
+import os
 import random
 import re
 import socket
@@ -30,6 +31,8 @@ GROWTH = 4 << 20  # bytes by which the resident memory may grow after the first 
 WARM = 20000  # least number of requests or frames of a long run; in shorter runs, caches and arenas still grow
 COLD_GROWTH = 32 << 20  # bytes by which the resident memory may grow after the first half of a shorter run
 ROUND = 1000  # number of requests or frames per round; a model that was deleted is made again before the next round
+# With these, freed memory goes back to the system at once, so that the resident memory shows what the daemon holds.
+HEAP = {"MALLOC_ARENA_MAX": "1", "MALLOC_MMAP_THRESHOLD_": "65536", "MALLOC_TRIM_THRESHOLD_": "65536"}
 OPTIONS = ["--request-rate", "0", "--max-connections-per-address", "0", "--export-cache", "4000000", "--model-cache", "4000000",
            "--max-upload", "1000000"]
 OEMBED_FORMAT = b"501"  # the status that oEmbed prescribes for an unknown format; no other 5xx may come
@@ -260,6 +263,7 @@ def main():
     requests, frames = (int(sys.argv[i]) if len(sys.argv) > i else few for i, few in ((2, 2000), (3, 1000)))
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.SystemRandom().randrange(1 << 32)
     print(f"seed {seed}", flush=True)
+    os.environ.update(HEAP)  # the daemon inherits them
     with tempfile.TemporaryDirectory(prefix="vitrine-") as folder:
         data = Path(folder) / "data"
         data.mkdir()
