@@ -42,6 +42,10 @@ tl::expected<DescribedFile, Fault> by_flags(const Arguments& arguments, const st
   if (!reading) return tl::unexpected(reading.error());
   auto model = ModelPath::of(in);
   if (!model) return failed(model.error());
+  // Standard input can be read only once, and therefore not checked here.
+  if (model->file != kStandardStream) {
+    if (const auto file = InputFile::open(model->file); !file) return failed(file.error());
+  }
   const ModelMetadata about = {.title = arguments.text("--title", title_of(model->file)),
                                .creator = arguments.text("--creator"),
                                .rights = arguments.text("--rights"),
