@@ -36,6 +36,12 @@ struct Facets {
     colours.resize(corners.size() / 3, kNoColour);
     if (!colours.empty()) colours.back() = colour;
   }
+
+  // Removes all facets after the first `count`.
+  void keep(std::size_t count) {
+    corners.resize(3 * count);
+    colours.resize(std::min(colours.size(), count));
+  }
 };
 
 void paint_faces(std::span<const StatedColour> colours, std::span<const std::uint32_t> index,
@@ -272,7 +278,7 @@ class AsciiStl {
   // Returns the complete facets of a text without endsolid at its end.
   Expected<RawMesh> read_cut() {
     const std::size_t count = (facets_.corners.size() - static_cast<std::size_t>(corners_)) / 3;
-    facets_.corners.resize(3 * count);
+    facets_.keep(count);
     if (count == 0)
       return bad_input("the STL file has no endsolid; it is cut short, copy it again");
     auto mesh = weld_facets(std::move(facets_));
