@@ -69,6 +69,20 @@ TEST(ReadDae, ALongCommentAndAPrefixOfTheNamespaceAreRead) {
   EXPECT_THAT(refusal("<?xml version=\"1.0\"?><!-- <COLLADA> --><a/>"), HasSubstr("an XML file"));
 }
 
+TEST(ReadDae, DeclarationsInTheDocumentTypeAreSkipped) {
+  const std::string text = DaeFile{}.text();
+  const std::size_t root = text.find("<COLLADA");
+  for (const std::string type : {"<!DOCTYPE COLLADA [<!ENTITY a \"b\">]>",
+                                 "<!DOCTYPE COLLADA SYSTEM \"c.dtd\" [\n"
+                                 "<!ENTITY a \"b\">\n<!ENTITY c \"d\">\n] >\n",
+                                 "<!DOCTYPE COLLADA []>"}) {
+    const auto read = read_text(text.substr(0, root) + type + text.substr(root));
+    EXPECT_EQ(read.mesh.faces, kDaeFaces) << type;
+  }
+  for (const std::string type : {"<!DOCTYPE COLLADA [<!ENTITY a \"b\">", "<!DOCTYPE COLLADA []"})
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>" + type), HasSubstr("an XML file")) << type;
+}
+
 TEST(ReadDae, AStatedUnitOverridesTheFile) {
   const std::string text = DaeFile{}.text();
   const auto read = read_mesh(as_bytes(text), {.unit = "mm"});
