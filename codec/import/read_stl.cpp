@@ -126,9 +126,9 @@ bool are_mostly_triangles(std::span<const std::uint8_t> file, std::size_t fewest
   return count >= fewest && triangles > count / 2;
 }
 
-// Whether the facets of the file after the first `known` ones are facets, too. Normals may have any
-// length, as some programs write them, if the file otherwise looks like nothing but triangles.
-// `is_whole`: the file ends with the last facet
+// Whether the bytes after the first `known` facets are facets, too. `is_whole`: the file ends with
+// the last facet. Normals may then have any length, as some programs write them, if most facets of
+// the file are triangles with different corners.
 bool are_surplus_facets(std::span<const std::uint8_t> file, std::size_t known, bool is_whole) {
   constexpr std::size_t kFacetsOfASolid = 4;
   const bool are_triangles = are_mostly_triangles(file, kFacetsOfASolid);
