@@ -31,12 +31,18 @@ std::string_view start_of_dae(std::span<const std::uint8_t> bytes, std::size_t m
   return {reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), most)};
 }
 
+std::string_view root_of_dae(std::span<const std::uint8_t> bytes) {
+  return root_name(start_of_dae(bytes, bytes.size()));
+}
+
 // Returns the length in metres of the unit that the element "unit" states. COLLADA prescribes
 // metres if a file states no unit.
 double metres_in(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kUnit = "<unit ", kPrefixedUnit = ":unit ", kMeter = "meter=";
+  constexpr std::string_view kMeter = "meter=";
+  const std::string_view root = root_of_dae(bytes);
+  const std::string_view prefix = root.substr(0, root.size() - local_name(root).size());
   std::string_view text = start_of_dae(bytes, kDaeUnit);
-  text.remove_prefix(std::min({text.find(kUnit), text.find(kPrefixedUnit), text.size()}));
+  text.remove_prefix(std::min(text.find('<' + std::string(prefix) + "unit "), text.size()));
   text = text.substr(0, text.find('>'));
   const std::size_t meter = text.find(kMeter);
   if (meter == text.npos) return 1;
@@ -453,7 +459,7 @@ class DaeReader {
 }  // namespace
 
 bool is_dae(std::span<const std::uint8_t> bytes) {
-  return local_name(root_name(start_of_dae(bytes, bytes.size()))) == "COLLADA";
+  return local_name(root_of_dae(bytes)) == "COLLADA";
 }
 
 std::string_view unit_of_dae(std::span<const std::uint8_t> bytes) {

@@ -36,6 +36,12 @@ struct Facets {
     colours.resize(corners.size() / 3, kNoColour);
     if (!colours.empty()) colours.back() = colour;
   }
+
+  // Removes all facets after the first `count`.
+  void keep(std::size_t count) {
+    corners.resize(3 * count);
+    colours.resize(std::min(colours.size(), count));
+  }
 };
 
 void paint_faces(std::span<const StatedColour> colours, std::span<const std::uint32_t> index,
@@ -120,9 +126,9 @@ bool are_mostly_triangles(std::span<const std::uint8_t> file, std::size_t fewest
   return count >= fewest && triangles > count / 2;
 }
 
-// Whether the facets of the file after the first `known` ones are facets, too. Normals may have any
-// length, as some programs write them, if the file otherwise looks like nothing but triangles.
-// `is_whole`: the file ends with the last facet
+// Whether the bytes after the first `known` facets are facets, too. `is_whole`: the file ends with
+// the last facet. Normals may then have any length, as some programs write them, if most facets of
+// the file are triangles with different corners.
 bool are_surplus_facets(std::span<const std::uint8_t> file, std::size_t known, bool is_whole) {
   constexpr std::size_t kFacetsOfASolid = 4;
   const bool are_triangles = are_mostly_triangles(file, kFacetsOfASolid);
@@ -272,7 +278,7 @@ class AsciiStl {
   // Returns the complete facets of a text without endsolid at its end.
   Expected<RawMesh> read_cut() {
     const std::size_t count = (facets_.corners.size() - static_cast<std::size_t>(corners_)) / 3;
-    facets_.corners.resize(3 * count);
+    facets_.keep(count);
     if (count == 0)
       return bad_input("the STL file has no endsolid; it is cut short, copy it again");
     auto mesh = weld_facets(std::move(facets_));

@@ -39,7 +39,10 @@ bool are_up_to_255(std::span<const StatedColour> stated) {
 }
 
 void scale_wide_integers(std::span<StatedColour> stated) {
-  const auto is_wide = [](const StatedColour& colour) { return std::ranges::max(colour) > 255; };
+  constexpr float kMostOvershoot = 2 * 255;
+  const auto is_wide = [](const StatedColour& colour) {
+    return std::ranges::max(colour) > kMostOvershoot;
+  };
   if (std::ranges::none_of(stated, is_wide)) return;
   for (StatedColour& colour : stated) {
     for (float& part : colour)

@@ -29,8 +29,9 @@ inline bool is_translucent(double opacity) {
 // above 1 still count as the range 0 to 1.
 bool are_up_to_255(std::span<const StatedColour> stated);
 
-// Scales colours that a file states as integers of 16 or more bits. If one of them is above 255,
-// their range is 0 to 65535, and they are scaled to the range 0 to 1. Otherwise they stay.
+// Scales colours that a file states as integers of 16 or more bits. If a value is above 510, their
+// range is 0 to 65535, and they are scaled to the range 0 to 1. Otherwise they stay: a few values
+// up to twice 255 still count as the range 0 to 255.
 void scale_wide_integers(std::span<StatedColour> stated);
 
 // Counts the values of colours that are out of range, and the colours that are missing.

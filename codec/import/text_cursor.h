@@ -67,9 +67,8 @@ class TextCursor {
   }
 
   // Reads the number at the cursor: a double, float or integer. A real number may have the exponent
-  // of Fortran, as in 1.0D+00. The number must be a whole word or
-  // be followed by `stop`. If the line has no such number, returns false and leaves the cursor
-  // before the word.
+  // of Fortran, as in 1.0D+00. The number must be a whole word or be followed by `stop`. If the
+  // line has no such number, returns false and leaves the cursor before the word.
   template <class Number>
   bool read_number(Number& value, char stop = ' ') {
     if (line_is_done()) return false;

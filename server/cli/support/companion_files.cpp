@@ -90,13 +90,16 @@ std::string_view text_in_fbx(std::string_view record) {
 }
 
 // Returns the name_key() of each picture that an FBX file, binary or text, names in records such as
-// RelativeFilename.
+// RelativeFilename. Some programs write these names as in a URI, so the result also contains the
+// decoded names.
 std::set<std::string> names_in_fbx(std::string_view fbx) {
   std::set<std::string> names;
   for (const std::string_view record : {"FileName", "Filename"}) {
     for (std::size_t at = fbx.find(record); at != fbx.npos; at = fbx.find(record, at)) {
       at += record.size();
-      names.insert(name_key(text_in_fbx(fbx.substr(at))));
+      const std::string_view name = text_in_fbx(fbx.substr(at));
+      names.insert(name_key(name));
+      names.insert(name_key(percent_decoded(name)));
     }
   }
   return names;
@@ -131,13 +134,11 @@ class Mentions {
 
   // Adds the names in a text file.
   void add(std::span<const std::uint8_t> bytes) {
-    // Does not use name_key() here, because it would keep only the text after the last slash.
-    std::string text =
-        composed(is_dae(bytes) ? decoded_dae(text_of(bytes).substr(0, kMostSearchedUris))
-                               : lines_as_utf8(text_of(bytes).substr(0, kMostSearchedBytes)));
-    for (char& c : text)
-      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    (text_ += text) += '\n';
+    if (is_dae(bytes)) return add_text(decoded_dae(text_of(bytes).substr(0, kMostSearchedUris)));
+    const std::string_view text = text_of(bytes).substr(0, kMostSearchedBytes);
+    add_text(lines_as_utf8(text));
+    // Some programs write the names of pictures as in a URI.
+    if (text.find('%') != text.npos) add_text(lines_as_utf8(percent_decoded(text)));
   }
 
   bool contains(const std::string& name) const {
@@ -145,6 +146,14 @@ class Mentions {
   }
 
  private:
+  // Does not use name_key(), because it would keep only the text after the last slash.
+  void add_text(const std::string& utf8) {
+    std::string text = composed(utf8);
+    for (char& c : text)
+      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    (text_ += text) += '\n';
+  }
+
   bool is_gltf_;
   std::set<std::string> names_;  // for glTF and FBX
   std::string text_;             // for other formats; in lower case, as names are

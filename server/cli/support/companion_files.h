@@ -31,9 +31,9 @@ class CompanionFiles {
   // glTF model, opens the files whose names occur as URIs in its JSON. For an FBX file, opens the
   // pictures that its records name. For other meshes, opens the .mtl files and the pictures whose
   // names occur in the first megabyte of `mesh` (in the first 16 of a DAE file), and the pictures
-  // whose names occur in these .mtl files. If several files have the same name, opens all of them,
-  // because only the reader knows which file is meant. Opens no files for a package, which contains
-  // its own files.
+  // whose names occur in these .mtl files. Names may be percent-encoded. If several files have the
+  // same name, opens all of them, because only the reader knows which file is meant. Opens no files
+  // for a package, which contains its own files.
   CompanionFiles(const ModelPath& path, std::span<const std::uint8_t> mesh,
                  CompanionKinds kinds = CompanionKinds::kAll);
   // Searches the folder of the file `path`.

@@ -52,21 +52,48 @@ TEST(ReadDae, UnitAndUpAxisAreKept) {
   EXPECT_EQ(asset("-1", "Y_UP").unit, "m");
 }
 
+// Returns the DAE with the prefix "c:" before the names of all elements.
+std::string with_prefix(std::string dae) {
+  for (std::size_t at = dae.find("<COLLADA"); (at = dae.find('<', at)) != dae.npos; ++at)
+    dae.insert(at + (dae[at + 1] == '/' ? 2 : 1), "c:");
+  return dae;
+}
+
 TEST(ReadDae, ALongCommentAndAPrefixOfTheNamespaceAreRead) {
   const std::string text = DaeFile{.asset = "<unit name=\"u\" meter=\"0.01\"/>"}.text();
   const std::size_t root = text.find("<COLLADA");
   const std::string commented = text.substr(0, root) + "<!-- a <b> " + std::string(5000, '-') +
                                 " --><!DOCTYPE x>\n" + text.substr(root);
-  std::string prefixed = text;
-  for (std::size_t at = root; (at = prefixed.find('<', at)) != prefixed.npos; ++at)
-    prefixed.insert(at + (prefixed[at + 1] == '/' ? 2 : 1), "c:");
-  for (const std::string& file : {commented, prefixed}) {
+  for (const std::string& file : {commented, with_prefix(text)}) {
     const auto read = read_text(file);
     EXPECT_EQ(read.mesh.faces, kDaeFaces);
     EXPECT_EQ(read.unit, "cm");
     EXPECT_THAT(read.repairs, IsEmpty());
   }
   EXPECT_THAT(refusal("<?xml version=\"1.0\"?><!-- <COLLADA> --><a/>"), HasSubstr("an XML file"));
+}
+
+TEST(ReadDae, DeclarationsInTheDocumentTypeAreSkipped) {
+  const std::string text = DaeFile{}.text();
+  const std::size_t root = text.find("<COLLADA");
+  for (const std::string type : {"<!DOCTYPE COLLADA [<!ENTITY a \"b\">]>",
+                                 "<!DOCTYPE COLLADA SYSTEM \"c.dtd\" [\n"
+                                 "<!ENTITY a \"b\">\n<!ENTITY c \"d\">\n] >\n",
+                                 "<!DOCTYPE COLLADA []>"}) {
+    const auto read = read_text(text.substr(0, root) + type + text.substr(root));
+    EXPECT_EQ(read.mesh.faces, kDaeFaces) << type;
+  }
+  for (const std::string type : {"<!DOCTYPE COLLADA [<!ENTITY a \"b\">", "<!DOCTYPE COLLADA []"})
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>" + type), HasSubstr("an XML file")) << type;
+}
+
+TEST(ReadDae, TheUnitIsThatOfTheElementAndNotOfAComment) {
+  const std::string unit = "<unit name=\"u\" meter=\"0.01\"/>";
+  const std::string comments =
+      "<contributor><comments>Scale:unit is inch, meter=1</comments></contributor>";
+  const std::string text = DaeFile{.asset = comments + unit}.text();
+  EXPECT_EQ(read_text(text).unit, "cm");
+  EXPECT_EQ(read_text(with_prefix(text)).unit, "cm");
 }
 
 TEST(ReadDae, AStatedUnitOverridesTheFile) {

@@ -126,6 +126,18 @@ TEST_F(SurfaceFile, PicturesOfADaeWithAByteOrderMarkAndEntitiesAreFound) {
   EXPECT_THAT(found_beside(path), ElementsAre("a &'b.png"));
 }
 
+TEST_F(SurfaceFile, PicturesNamedAsInAUriAreFound) {
+  write("a.mtl", "newmtl m\nmap_Kd B%20%C3%A4.PNG\n");
+  write("b \xC3\xA4.png", "contents");
+  write("c%20d.png", "contents");
+  const std::string obj = write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\n");
+  EXPECT_THAT(found_beside(obj), ElementsAre("a.mtl", "b \xC3\xA4.png"));
+  const std::string fbx = write("a.fbx", textured_fbx("C:\\maps\\b%20%C3%A4.png").file());
+  EXPECT_THAT(found_beside(fbx), ElementsAre("b \xC3\xA4.png"));
+  const std::string ply = write("a.ply", "ply\ncomment TextureFile c%20d.png\n");
+  EXPECT_THAT(found_beside(ply), ElementsAre("c%20d.png"));
+}
+
 TEST_F(SurfaceFile, TheShapeHasNoTexturing) {
   const std::string path = write("a.obj",
                                  "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
