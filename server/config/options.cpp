@@ -400,8 +400,8 @@ constexpr std::array kOptions{
            .default_value = "256",
            .doc =
                "Disconnect clients that receive fewer bytes per second than this, on average. For "
-               "responses that count towards 'answer-memory', the least rate is 20000. 0 "
-               "disables the check.",
+               "responses that count towards 'answer-memory', the least rate is 2000, or 20000 "
+               "if they take more than a 64th of it. 0 disables the check.",
            .apply = number<&S::min_rate, 0, 1'000'000'000>},
     Option{
         .key = "idle-timeout",

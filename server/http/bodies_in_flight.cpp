@@ -7,8 +7,7 @@ bool BodiesInFlight::has_room(std::uint64_t size, const std::string& network) co
   const std::uint64_t max = max_bytes_;
   const auto found = of_network_.find(network);
   const std::uint64_t own = found == of_network_.end() ? 0 : found->second;
-  const bool is_modest = own + size <= max / 64;
-  const std::uint64_t usable = is_modest ? max : without_reserve(max);
+  const std::uint64_t usable = is_modest(own + size, max) ? max : without_reserve(max);
   if (size > usable || bytes_ > usable - size) return false;
   return own == 0 || own + size <= max / 4;
 }

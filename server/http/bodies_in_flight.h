@@ -26,14 +26,17 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   // Shared memory counts once in total, and once for each network that receives any of it.
   //
   // The bodies of a network may take a quarter of the limit. Its first body may be larger. The last
-  // quarter of the limit is for networks whose bodies take at most a 64th of the limit, so that a
-  // few networks cannot fill all of it.
+  // quarter of the limit is for networks whose bodies are modest in total, so that a few networks
+  // cannot fill all of it.
   std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
   // Whether the body would be admitted if no other responses were being sent.
   bool fits_alone(const Body& body) const {
     return body_memory(body) <= without_reserve(max_bytes_);
   }
+
+  // Whether the body is modest: takes at most a 64th of the limit.
+  bool is_modest(const Body& body) const { return is_modest(body_memory(body), max_bytes_); }
 
   // Whether the body counts. Bodies that occupy less than kSmall bytes of memory do not count.
   static bool counts(const Body& body) { return body_memory(body) >= kSmall; }
@@ -45,6 +48,7 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
     std::uint64_t bytes = 0;
     std::unordered_map<std::string, std::size_t> senders;  // number of bodies for each network
   };
+  static bool is_modest(std::uint64_t size, std::uint64_t max) { return size <= max / 64; }
   static std::uint64_t without_reserve(std::uint64_t max) { return max - max / 4; }
 
   // `owner` is null if the memory is not shared.

@@ -49,7 +49,8 @@ struct HttpOptions {
   std::uint32_t request_rate = 0;  // requests per second; see RateLimit
   std::uint32_t min_rate = 0;      // bytes per second; see Pace
   // Minimum rate for bodies that BodiesInFlight counts, because they occupy memory until they are
-  // received. The larger of this and `min_rate` applies; neither does if `min_rate` is 0.
+  // received. A tenth of it applies to modest bodies, so that slow phones receive them. If
+  // `min_rate` is larger, it applies instead; if it is 0, there is no minimum.
   std::uint32_t min_memory_rate = 20'000;
   std::uint64_t answer_memory = UINT64_MAX;  // limit in bytes; see BodiesInFlight
 };
@@ -109,8 +110,9 @@ class HttpServer {
   // Returns the limits for a response with this body.
   Pace pace_of(const Body& body) const {
     Pace result = pace();
-    if (result.min_rate > 0 && BodiesInFlight::counts(body))
-      result.min_rate = std::max(result.min_rate, options_.min_memory_rate);
+    if (result.min_rate == 0 || !BodiesInFlight::counts(body)) return result;
+    const std::uint32_t rate = options_.min_memory_rate;
+    result.min_rate = std::max(result.min_rate, bodies_->is_modest(body) ? rate / 10 : rate);
     return result;
   }
 

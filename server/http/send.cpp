@@ -23,15 +23,8 @@ class SendDeadline {
  public:
   SendDeadline(Connection& connection, Pace pace) : connection_(connection), pace_(pace) {}
 
-  // Sets the deadline to `timeout` from now. If there is a minimum rate, the deadline is no later
-  // than `timeout` after the time in which `sent` bytes arrive at exactly that rate.
   void renew(std::uint64_t sent) {
-    Connection::Clock::duration left = pace_.timeout;
-    if (pace_.min_rate > 0) {
-      const auto allowed = pace_.timeout + std::chrono::milliseconds(sent * 1000 / pace_.min_rate);
-      left = std::min(left, start_ + allowed - Connection::Clock::now());
-    }
-    connection_.expires_after(left);
+    connection_.expires_after(pace_.time_left(sent, Connection::Clock::now() - start_));
   }
 
  private:

@@ -96,6 +96,7 @@ class LocalServer {
     std::ifstream in(folder_.path() / "events.log");
     return {std::istreambuf_iterator<char>(in), {}};
   }
+  Pace pace_of(const Body& body) const { return server_.pace_of(body); }
   void sweep() { server_.sweep(); }
   // Returns a future that becomes ready when no connection is open.
   std::future<void> drain() {

@@ -381,8 +381,9 @@ TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
 // The pauses between the reads are shorter than the idle timeout, and the client receives far more
 // than `min_rate`.
 TEST(Overload, AClientThatTakesAnAnswerFromMemoryTooSlowlyIsCutOff) {
-  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(1), {},
-                                 {.min_rate = 1, .min_memory_rate = 1'000'000'000});
+  const test::LocalServer server(
+      kCrowdedRoutes, std::chrono::seconds(1), {},
+      {.min_rate = 1, .min_memory_rate = 1'000'000'000, .answer_memory = 8 * kLarge});
   for (const std::string path : {"/text", "/shared"}) {
     test::HttpClient client(server.port());
     client.send("GET " + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
@@ -394,6 +395,28 @@ TEST(Overload, AClientThatTakesAnAnswerFromMemoryTooSlowlyIsCutOff) {
         std::runtime_error)
         << path;
   }
+}
+
+// Whether a client that accepts `rate` bytes per second receives all of a text of this size.
+bool receives_all(const test::LocalServer& server, std::uint64_t size, std::uint64_t rate) {
+  const Pace pace = server.pace_of(std::string(size, 'a'));
+  std::chrono::seconds elapsed{0};
+  std::uint64_t sent = 0;
+  for (; sent < size && pace.time_left(sent, elapsed).count() > 0; sent += rate)
+    ++elapsed;
+  return sent >= size;
+}
+
+TEST(Overload, ASlowPhoneReceivesModestAnswersButDoesNotOccupyALargePartOfTheMemory) {
+  constexpr std::uint64_t kModest = 2'000'000;
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.min_rate = 256, .answer_memory = 64 * kModest});
+  EXPECT_TRUE(receives_all(server, kModest, 2'500));
+  EXPECT_FALSE(receives_all(server, kModest, 1'500));
+  EXPECT_FALSE(receives_all(server, kModest + 1, 2'500));
+  EXPECT_FALSE(receives_all(server, kModest + 1, 15'000));
+  EXPECT_TRUE(receives_all(server, kModest + 1, 25'000));
+  EXPECT_TRUE(receives_all(server, BodiesInFlight::kSmall - 1, 300));
 }
 
 // The server answers each of these requests with an error, or with the list of methods, without
