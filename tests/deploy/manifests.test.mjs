@@ -67,6 +67,8 @@ test("the compose file's nginx is the configuration that ships, with other addre
   const conf = spawnSync("sh", ["-c", change.replace("/vitrine.conf", `'${shipped}'`)], { encoding: "utf8" }).stdout;
   assert.equal(conf.split("server serve:8080;").length, 3);
   assert.equal(conf.split("listen 8081;").length, 2);
+  const [{ subnet }] = compose.networks.inside.ipam.config;
+  assert.match(conf, new RegExp(`location /purge/ \\{\\s+internal;\\s+allow 127\\.0\\.0\\.1; allow ${subnet};\\s+deny all;`));
   for (const name of ["serve", "build"]) assert.equal(compose.services[name].environment.VITRINE_PURGE_URLS, "http://nginx:8081");
   assert.match(compose.services.nginx.command.at(-1), /worker_connections 4096/);
   for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));

@@ -44,7 +44,7 @@ function ask(path, headers = {}, method = "GET") {
 }
 
 async function get(url, options) {
-  const request = https.request(url, options);
+  const request = (url.startsWith("https:") ? https : http).request(url, options);
   request.on("error", () => undefined);  // an error after the response would otherwise end the test
   request.end();
   const [response] = await once(request, "response");
@@ -272,6 +272,9 @@ test("a purged chunk is gone, though its time is not over, and comes back once i
     const first = await ask();
     assert.equal((await change("unpublish")).status, 200);
     assert.deepEqual((await ask()).body, first.body, "nginx does not ask the origin");
+    const refused = await get(front.purgeUrl + path, { method: "PURGE", localAddress: "127.0.0.2", agent: false });
+    assert.equal(refused.status, 403);
+    assert.deepEqual((await ask()).body, first.body, "other addresses cannot purge");
     const purged = await fetch(front.purgeUrl + path, { method: "PURGE" });
     assert.equal(purged.status, 404);
     assert.equal((await ask()).status, 404);
