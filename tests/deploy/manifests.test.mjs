@@ -70,7 +70,10 @@ test("the compose file's nginx is the configuration that ships, with other addre
   const [{ subnet }] = compose.networks.inside.ipam.config;
   assert.match(conf, new RegExp(`location /purge/ \\{\\s+internal;\\s+allow 127\\.0\\.0\\.1; allow ${subnet};\\s+deny all;`));
   for (const name of ["serve", "build"]) assert.equal(compose.services[name].environment.VITRINE_PURGE_URLS, "http://nginx:8081");
-  assert.match(compose.services.nginx.command.at(-1), /worker_connections 4096/);
+  const [edit] = compose.services.nginx.command.at(-1).match(/sed -i .*(?= \/etc\/nginx\/nginx.conf)/);
+  const input = "user nginx;\nevents {\n    worker_connections  1024;\n}\n";
+  const main = spawnSync("sh", ["-c", edit.replace("sed -i", "sed")], { encoding: "utf8", input }).stdout;
+  assert.equal(main, "worker_rlimit_nofile 8192;\nuser nginx;\nevents {\n    worker_connections 4096;\n}\n");
   for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));
 });
 
