@@ -51,6 +51,10 @@ class FairQueue {
     if (--line.items == 0) lines_.erase(found);
   }
 
+  // Number of checks so far whether an item is blocked. Proportional to the number of items,
+  // because blocked items are set aside.
+  std::uint64_t checks() const { return checks_; }
+
  private:
   struct Line;
   struct Entry {
@@ -68,7 +72,10 @@ class FairQueue {
     Entries parked;
   };
 
-  static bool is_blocked(const Entry& entry) { return entry.line && entry.line->is_taken; }
+  bool is_blocked(const Entry& entry) {
+    ++checks_;
+    return entry.line && entry.line->is_taken;
+  }
 
   void park_first() {
     Line& line = *items_.begin()->second.line;
@@ -85,7 +92,7 @@ class FairQueue {
   std::map<std::string, Line> lines_;
   std::map<std::string, std::uint64_t>
       last_round_;  // each owner's last round; erased if it is before `round_`
-  std::uint64_t round_ = 1, arrivals_ = 0;
+  std::uint64_t round_ = 1, arrivals_ = 0, checks_ = 0;
 };
 
 }  // namespace vitrine::server

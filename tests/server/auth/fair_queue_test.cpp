@@ -64,9 +64,8 @@ TEST(FairQueue, ItemsWithEqualTargetsLeaveOneAtATimeInTheSameOrder) {
   EXPECT_EQ(drain(queue), "a5 ");
 }
 
-// Takes minutes if each take() looks at all blocked items.
-TEST(FairQueue, BlockedItemsAreNotLookedAtAgain) {
-  constexpr int kItems = 100'000;
+TEST(FairQueue, BlockedItemsAreNotCheckedAgainUntilTheirTurn) {
+  constexpr int kItems = 1000;
   FairQueue<int> queue;
   int taken = 0;
   for (int i = 0; i < kItems; ++i) {
@@ -79,6 +78,7 @@ TEST(FairQueue, BlockedItemsAreNotLookedAtAgain) {
     EXPECT_EQ(queue.take(), i);
     EXPECT_EQ(queue.take(), std::nullopt);
   }
+  EXPECT_LE(queue.checks(), 2u * kItems);
 }
 
 }  // namespace
