@@ -12,7 +12,8 @@ import { freePort, Nginx } from "./nginx.mjs";
 const kTimeouts = [
   ["client_header_timeout 10s;  # for the handshakes of all servers", "client_header_timeout 1s;"],
   ["client_header_timeout 10s;  # for the headers of requests", "client_header_timeout 1s;"],
-  ["keepalive_timeout 30s;", "keepalive_timeout 1s;"],
+  ["keepalive_timeout 30s;  # after a redirect", "keepalive_timeout 1s;"],
+  ["keepalive_timeout 30s;  # after a response", "keepalive_timeout 1s;"],
 ];
 let nginx, ca;
 
@@ -42,4 +43,6 @@ test("a connection without a handshake, or without a request, ends", async () =>
 test("a connection whose header is not complete ends, and so does an idle one", async () => {
   await receivedOf(secure(), "GET / HTTP/1.1\r\nHost: localhost\r\nX: ");
   assert.match(await receivedOf(secure(), "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"), /^HTTP\/1.1 502 /);
+  const redirected = await receivedOf(createConnection(nginx.plainPort, "127.0.0.1"), "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  assert.match(redirected, /^HTTP\/1.1 308 /);
 });
