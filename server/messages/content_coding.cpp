@@ -134,7 +134,8 @@ Response kept_json(const RequestHeader& request, std::shared_ptr<const Document>
     bytes = document->gzip;
     mark_compressed(response);
   }
-  response.body = SharedBytes{std::move(document), bytes};
+  const std::uint64_t memory = document->text.size() + document->gzip.size();
+  response.body = SharedBytes{std::move(document), bytes, memory};
   return response;
 }
 
