@@ -51,7 +51,8 @@ class JobEvents final : public EventSource {
   // Reads the catalogue only if a model or the job's state has changed since the last check. If the
   // catalogue cannot be read, the job counts as visible, and the next call checks it again. Opens
   // no file, because that may take long. If the model has a file that was not opened before, ends
-  // the connection; the client's next request opens the file.
+  // the connection, unless the job has just made the model; the client's next request opens the
+  // file.
   bool may_continue() override {
     if (!is_for_visitor_ || !run_) return true;
     const auto revision = services_.models.revision();

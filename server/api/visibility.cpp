@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/api/visibility.h"
 
+#include "server/jobs/job_claim.h"
+
 namespace vitrine::server {
 namespace {
 
@@ -17,43 +19,43 @@ bool is_visible_without_model(const ScanInfo& scan) {
          (!job.model || !has_ended(job.state));
 }
 
-// Returns the geometry_hash() of the model as visitors see it, or nullopt if they do not see it.
-// Fails with kIo if the catalogue or the store cannot be read.
-using Geometry = Expected<std::optional<Sha256>>;
-
-Geometry shown_geometry(const ModelId& id, PublishedModels& models) {
-  const FoundModel shown = find_visible(id, false, models).model;
+// Whether visitors see the geometry that was built from the scan. The scan must have a model. Fails
+// with kIo if the catalogue or the store cannot be read.
+Expected<bool> shows_geometry(const ScanInfo& scan, PublishedModels& models) {
+  const FoundModel shown = find_visible(*scan.entry.model, false, models).model;
   if (!shown && shown.error().code == ErrorCode::kIo) return tl::unexpected(shown.error());
-  if (!shown || !*shown) return std::nullopt;
-  return geometry_hash((*shown)->manifest());
+  return shown && *shown && geometry_hash((*shown)->manifest()) == scan.entry.built;
 }
 
-// Like shown_geometry(), but opens no file. Also returns nullopt if the file was not opened before.
-Geometry known_geometry(const ModelId& id, PublishedModels& models) {
-  return models.file_of(id, false).map([&](const std::optional<Sha256>& file) {
-    return file ? models.known_geometry(*file) : std::nullopt;
-  });
+// Like shows_geometry(), but opens no file. If the file was not opened before, its geometry is
+// unknown. Then returns whether visitors see all of the model that the scan's job has made.
+Expected<bool> shows_geometry_unopened(const ScanInfo& scan, PublishedModels& models) {
+  const ModelId& model = *scan.entry.model;
+  const auto shown = models.file_of(model, false);
+  if (!shown) return tl::unexpected(shown.error());
+  if (!*shown) return false;
+  if (const auto geometry = models.known_geometry(**shown)) return geometry == scan.entry.built;
+  if (model != model_id_of(scan.job.record)) return false;
+  return models.file_of(model, true).map([&](const auto& whole) { return whole == *shown; });
 }
 
-using FindGeometry = Geometry(const ModelId& id, PublishedModels& models);
+using ShowsGeometry = Expected<bool>(const ScanInfo& scan, PublishedModels& models);
 
-// Returns is_visible(scan, models). Fails if `geometry_of` fails.
+// Returns is_visible(scan, models). Fails if `shows` fails.
 Expected<bool> check_visibility(const ScanInfo& scan, PublishedModels& models,
-                                FindGeometry geometry_of) {
+                                ShowsGeometry shows) {
   if (!scan.entry.model) return is_visible_without_model(scan);
   if (!scan.entry.built) return false;
-  const auto geometry = geometry_of(*scan.entry.model, models);
-  if (!geometry) return tl::unexpected(geometry.error());
-  return *geometry == scan.entry.built;
+  return shows(scan, models);
 }
 
 Expected<bool> check_visibility(const JobRecord& job, ScanService& scans, PublishedModels& models,
-                                FindGeometry geometry_of) {
+                                ShowsGeometry shows) {
   if (!job.scan) return false;
   const auto scan = scans.find(*job.scan);
   if (!scan) return tl::unexpected(scan.error());
   if (!*scan || (*scan)->entry.job != job.id) return false;
-  return check_visibility(**scan, models, geometry_of);
+  return check_visibility(**scan, models, shows);
 }
 
 }  // namespace
@@ -80,16 +82,16 @@ std::optional<Opening> opening_of(const ModelId& id, bool has_token, PublishedMo
 }
 
 bool is_visible(const ScanInfo& scan, PublishedModels& models) {
-  return check_visibility(scan, models, shown_geometry).value_or(false);
+  return check_visibility(scan, models, shows_geometry).value_or(false);
 }
 
 Expected<bool> check_visibility(const JobRecord& job, ScanService& scans, PublishedModels& models) {
-  return check_visibility(job, scans, models, shown_geometry);
+  return check_visibility(job, scans, models, shows_geometry);
 }
 
 Expected<bool> check_visibility_unopened(const JobRecord& job, ScanService& scans,
                                          PublishedModels& models) {
-  return check_visibility(job, scans, models, known_geometry);
+  return check_visibility(job, scans, models, shows_geometry_unopened);
 }
 
 bool is_visible(const JobRecord& job, ScanService& scans, PublishedModels& models) {

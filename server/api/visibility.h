@@ -44,8 +44,9 @@ bool is_visible(const ScanInfo& scan, PublishedModels& models);
 // Whether visitors see the job: only a job that measures a visible scan is visible. Fails with kIo
 // if the catalogue or the store cannot be read.
 Expected<bool> check_visibility(const JobRecord& job, ScanService& scans, PublishedModels& models);
-// Like check_visibility(), but opens no file. Returns false if it cannot compare the geometry,
-// because this process has not opened the model's file before.
+// Like check_visibility(), but opens no file. If this process has not opened the model's file
+// before, it cannot compare the geometry. Then returns true only if the job has made the model and
+// no level of the model is hidden, so that a visitor sees the job's end.
 Expected<bool> check_visibility_unopened(const JobRecord& job, ScanService& scans,
                                          PublishedModels& models);
 // Like check_visibility(), but returns false if that function fails.

@@ -164,5 +164,33 @@ TEST_F(ResumedScan, CheckingItsEventsOpensNoFile) {
   EXPECT_EQ(services.models.misses, opened);
 }
 
+TEST(JobEvents, ThoseOfANewModelGoOnBeforeItsFileIsOpened) {
+  FakeScanner world;
+  std::vector<std::unique_ptr<ScannerBackend>> backends;
+  backends.push_back(std::make_unique<FakeBackend>(world));
+  LocalServer server(public_routes(), std::chrono::seconds(30), std::move(backends));
+  ASSERT_TRUE(server.scans().start());
+  HeldAtStep held(world, 5);
+  const auto order = server.scans().scan(
+      {.scanner = "rig", .request = {.steps = 12}, .metadata = {.title = "A"}, .is_public = true},
+      std::nullopt);
+  ASSERT_TRUE(order);
+  held.await();
+  Services& services = server.services();
+  const auto events = events_of(order->job, services, std::nullopt);
+  ASSERT_TRUE(events);
+  EXPECT_TRUE(events->may_continue());
+  held.open();
+  server.scans().jobs().executor("rig").run([] {});
+  EXPECT_TRUE(events->may_continue());
+  EXPECT_EQ(services.models.misses, 0u);
+  const ModelId id = server.scans().find(order->scan).value()->entry.model.value();
+  ModelRecord model = server.catalogue().find(id).value().value();
+  model.public_part = PublicPart{.max_level = 0, .file = Sha256{1}};
+  ASSERT_TRUE(server.catalogue().update(model, std::nullopt));
+  services.models.refresh();
+  EXPECT_FALSE(events->may_continue()) << "a level is hidden";
+}
+
 }  // namespace
 }  // namespace vitrine::test
