@@ -435,7 +435,7 @@ constexpr std::array kOptions{
                   "need none. A response that does not fit beside the others fails with 503. "
                   "Responses to one address may take a quarter; the first may be larger. The last "
                   "quarter is for addresses that take at most a 64th. A response larger than three "
-                  "quarters fails with 507.",
+                  "quarters fails with 507, and so does a range of it.",
            .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
            .is_reloadable = true},
     Option{.key = "hosts",

@@ -30,7 +30,9 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   // cannot fill all of it.
   std::shared_ptr<const void> admit(const Body& body, const std::string& network);
 
-  // Whether the body would be admitted if no other responses were being sent.
+  // Whether the body would be admitted if no other responses were being sent. A body that takes the
+  // last quarter of the limit is never admitted, because one slow client could then keep the memory
+  // from all others for hours.
   bool fits_alone(const Body& body) const {
     return body_memory(body) <= without_reserve(max_bytes_);
   }
