@@ -582,11 +582,12 @@ Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {
   if (!owner) return tl::unexpected(owner.error());
   if (!*owner) return PublishedChunk{};
   auto model = load({**owner});
-  for (auto tried = *owner; !model && model.error().code == ErrorCode::kState; tried = *owner) {
-    owner = model_with(sha256);  // the file was found damaged, so prefers another model
-    if (!owner) return tl::unexpected(owner.error());
-    if (!*owner || *owner == tried) break;
-    model = load({**owner});
+  // A file was found damaged, so tries the next model.
+  for (int i = 1; i < kMostOwners && !model && model.error().code == ErrorCode::kState; ++i) {
+    const auto next = catalogue_.find_chunk_after(sha256, **owner);
+    if (!next) return tl::unexpected(next.error());
+    if (!*next) break;
+    model = load({owner->emplace((*next)->model)});
   }
   if (!model) return tl::unexpected(model.error());
   // The model may have a new file by now, so the position is looked up in the manifest of that

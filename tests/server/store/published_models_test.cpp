@@ -268,6 +268,10 @@ TEST_F(PublishedModelsTest, AChunkComesFromAnotherModelIfTheFileOfOneIsDamaged) 
     EXPECT_EQ(found->model->record().id, intact);
     models.set_damaged(sha256(bytes));
     EXPECT_EQ(models.model_with(chunk).value(), intact) << "it is opened before the request";
+    PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+    ASSERT_TRUE(lazy.revision());
+    add("other " + std::to_string(damaged));
+    EXPECT_TRUE(lazy.find_chunk(chunk)) << "although the catalogue has changed since";
     ASSERT_TRUE(store_.put(sha256(bytes), bytes));
   }
   for (const auto& [id, bytes] : files)
