@@ -26,13 +26,13 @@ class StreamChecks : public testing::Test {
  protected:
   StreamChecks() { EXPECT_EQ(stream_.receive().kind, WebSocketFrame::kText); }
 
-  void change(const std::string& method, const std::string& path, const std::string& json = "") {
+  void change(const std::string& method, const std::string& path, const std::string& body = "") {
     const std::string fields =
-        "Content-Type: application/json\r\nContent-Length: " + std::to_string(json.size()) +
+        "Content-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) +
         "\r\n" + operator_;
     test::HttpClient client(server_.port());
     client.send(method + " /api/v1/models/" + id_.to_string() + path + " HTTP/1.1\r\nHost: a\r\n" +
-                fields + "\r\n" + json);
+                fields + "\r\n" + body);
     EXPECT_LT(client.receive().status, 300) << path;
   }
   // Waits up to 20 s for the close frame of the stream.
