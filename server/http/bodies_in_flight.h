@@ -56,7 +56,7 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   // `owner` is null if the memory is not shared.
   bool enter(const void* owner, std::uint64_t size, const std::string& network);
   void leave(const void* owner, std::uint64_t size, const std::string& network);
-  // The caller of these functions must hold the lock.
+  // The caller of these functions must hold mutex_.
   bool has_room(std::uint64_t size, const std::string& network) const;
   void count_less(std::uint64_t size, const std::string& network);
 

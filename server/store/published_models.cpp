@@ -117,7 +117,8 @@ Expected<void> PublishedModels::forget_if_changed() {
 
 Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   std::uint64_t refreshed = 0, before = 0;
-  std::vector<RecordVersion> held;  // not pointers, which reserve_copy() would take for visitors
+  // Not pointers to the models, because reserve_copy() takes models with further pointers for used.
+  std::vector<RecordVersion> held;
   {
     const std::shared_lock lock(mutex_);
     if (is_fresh(now, staleness_ / 2)) return {};
